@@ -79,12 +79,16 @@ def test_a_stress_is_taken_at_the_increments_it_is_asked_for(result: fret.Result
         numbers, _ = evaluate_measures(result, measures)
     for suffix, increment in (("", -1), ("_2", 4)):
         extremum = maximum(result, increment, "s_1")
-        found = [
+        limits = [
             float(numbers[f"largest_s_1{suffix}{side}"].values) for side in ("_low", "", "_high")
         ]
         errors = (-extremum.error, 0.0, extremum.error)
-        np.testing.assert_allclose(found, [max(extremum.value + e, 0.0) for e in errors])
-    for bad in ({"of": "stress"}, {"of": "s_1", "increments": []}, {"of": "s_1", "body_number": 3}):
+        np.testing.assert_allclose(limits, [max(extremum.value + e, 0.0) for e in errors])
+    for bad in (
+        {"stress": "x"},
+        {"stress": "s_1", "increments": []},
+        {"stress": "s_1", "body_number": 3},
+    ):
         with pytest.raises(ValueError, match=next(reversed(bad))):
             fret.study.LargestStress(**bad)  # type: ignore[arg-type]
 

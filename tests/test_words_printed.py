@@ -55,7 +55,7 @@ def test_a_summary_has_the_words_of_the_field(result: fret.Result) -> None:
 
 @pytest.mark.solves
 def test_a_layer_has_the_same_name_wherever_it_is_printed(result: fret.Result) -> None:
-    """Of a largest stress, a worst point and a load factor: "coating 1", "the substrate"."""
+    """Largest stresses, worst points and load factors are in "coating 1" or "the substrate"."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         stress = result.at(-1).stress()
@@ -170,7 +170,7 @@ REFUSALS = (ValueError, TypeError, LookupError, OSError, fret.errors.StoreError)
 
 @pytest.mark.parametrize("name", ECHOES)
 def test_a_text_of_megabytes_is_refused_in_a_short_message_at_once(name: str) -> None:
-    """In linear time: 5 MB within a second of processor time, five on a slow machine."""
+    """Refuse 5 MB in linear time: a second of processor time, five on a slow machine."""
     started = time.process_time()
     with pytest.raises(REFUSALS) as refused:
         ECHOES[name]()

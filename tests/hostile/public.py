@@ -404,7 +404,7 @@ OF: dict[str, dict[str, Any]] = {
     },
     "study.Cracking": {},
     "study.Averaged": {"material": ALLOY},
-    "study.LargestStress": {"of": "s_1", "increments": [-1]},
+    "study.LargestStress": {"stress": "s_1", "increments": [-1]},
     "study.Candidate": {"mu": 0.3},
     "study.fit_limits": {"material": ALLOY},
     "wear.Air": {"distance": 1e-3, "power_density": 1e4, "power_exponent": 0.9},

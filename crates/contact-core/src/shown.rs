@@ -55,8 +55,8 @@ pub fn abridge(text: &str) -> Cow<'_, str> {
     match text.char_indices().nth(LONGEST_ECHO) {
         None => Cow::Borrowed(text),
         Some((end, _)) => {
-            let more = text[end..].chars().count();
-            Cow::Owned(format!("{}... ({more} more characters)", &text[..end]))
+            let omitted = text[end..].chars().count();
+            Cow::Owned(format!("{}... ({omitted} more characters)", &text[..end]))
         }
     }
 }

@@ -74,7 +74,7 @@ impl CoarserCells {
         })
     }
 
-    /// The same cells, with the borders on a line of the fine grid alone.
+    /// Restricts the borders to a line of the fine grid.
     pub(super) fn on_line(self, line: Line) -> Self {
         let line = line.with_origin(self.middle).0;
         Self {

@@ -75,7 +75,7 @@ impl Search {
         })
     }
 
-    /// The same search, below a line alone.
+    /// Restricts the search to a line.
     pub(super) fn on_line(self, line: Line) -> Self {
         Self {
             borders: self.points.borders(0, Some(line)),

@@ -20,6 +20,7 @@ from pyfret import _core
 from pyfret._util.lazy import xr
 from pyfret.fatigue.cycle_section import max_path_error, section_body
 from pyfret.history.states import LoopStates, branch_ends
+from pyfret.quantities import as_layers
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -154,7 +155,7 @@ def averaged_row(judged: JudgedSection, states: LoopStates, pairing: int) -> NDA
         averaged_states(run, states.increments, section.body_number, pairing),
         [judged.worst_depth],
         [judged.worst_layer],
-        residual=section.residual,
+        residual=as_layers(section.residual),
         **section.line.named(),
         body_number=section.body_number,
     )

@@ -87,8 +87,8 @@ def study_line(
     places = scale_axis(ax, "x", values[chosen], words)
     ax.set_ylabel(label + ("\n(estimate)" if is_estimate(d[str(values.name)]) else ""))
     ends = bounds(d, str(values.name))
-    for place in product(*(range(values.sizes[name]) for name in others)):
-        position = dict(zip(others, place, strict=True))
+    for indices in product(*(range(values.sizes[name]) for name in others)):
+        position = dict(zip(others, indices, strict=True))
         text = describe(values.isel(position), others, words)
         (line,) = ax.plot(places, values.isel(position).values, "o-", markersize=4, label=text)
         if ends is not None:

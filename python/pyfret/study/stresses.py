@@ -70,8 +70,8 @@ def sample_states(
     """
     p = result.dataset.variables["p"].isel(saved=-1).values
     key = tuple(increments), crc32(np.ascontiguousarray(p).tobytes())
-    place = f"{'interfaces' if on_interfaces(name) else 'sections'} of body {body_number}"
-    kept = result.shared.get(place)
+    section_kind = f"{'interfaces' if on_interfaces(name) else 'sections'} of body {body_number}"
+    kept = result.shared.get(section_kind)
     if kept is not None and kept[0] == key:
         sampled: list[SampledState] = kept[1]
         return sampled
@@ -82,7 +82,7 @@ def sample_states(
         for below in sections
     ]
     if sum(below.dataset.nbytes for below in sections) <= SHARED_SECTIONS:
-        result.shared[place] = (key, sampled)
+        result.shared[section_kind] = (key, sampled)
     return sampled
 
 
@@ -137,12 +137,12 @@ def stress_measure(name: str) -> Callable[[Result], Answer]:
 class LargestStress:
     """A measure: the largest value of a stress below some increments.
 
-    Gives ``largest_von_mises`` for ``of="von_mises"``, with its range. The time of the measure
+    Gives ``largest_von_mises`` for ``stress="von_mises"``, with its range. The time of the measure
     grows with the number of increments.
 
     Parameters
     ----------
-    of : str
+    stress : str
         A stress, such as ``"von_mises"``, ``"s_1"`` or ``"interface_shear"``.
     increments : sequence of int
         Increments with fields, as of ``result.at``: -1 is the last (default).
@@ -151,19 +151,21 @@ class LargestStress:
 
     Examples
     --------
-    >>> LargestStress("interface_shear", increments=[-1]).of
+    >>> LargestStress("interface_shear", increments=[-1]).stress
     'interface_shear'
     """
 
-    of: str
+    stress: str
     increments: Sequence[int] = (-1,)
     body_number: int | None = None
 
     def __post_init__(self) -> None:
         """Reject an unknown stress, and an empty list of increments."""
         object.__setattr__(self, "increments", tuple(self.increments))
-        if self.of not in LABELS:
-            raise ValueError(f"of = {self.of!r:.60}: must be one of {', '.join(sorted(LABELS))}")
+        if self.stress not in LABELS:
+            raise ValueError(
+                f"stress = {self.stress!r:.60}: must be one of {', '.join(sorted(LABELS))}"
+            )
         if len(self.increments) == 0:
             raise ValueError("increments: must have one at least, such as [-1], the last")
         if self.body_number not in (None, 1, 2):
@@ -171,8 +173,8 @@ class LargestStress:
 
     def __call__(self, result: Result) -> dict[str, xr.DataArray]:
         """Find the largest value below the increments."""
-        answer = largest_of_bodies(result, self.of, list(self.increments), self.body_number)
-        units, meaning = LABELS[self.of]
+        answer = largest_of_bodies(result, self.stress, list(self.increments), self.body_number)
+        units, meaning = LABELS[self.stress]
         where = ", ".join(map(str, self.increments))
         label = f"largest {meaning.removeprefix('largest ')} below the increments {where}"
-        return answer.arrays(f"largest_{self.of}", units, label)
+        return answer.arrays(f"largest_{self.stress}", units, label)

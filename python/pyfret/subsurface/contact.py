@@ -61,7 +61,7 @@ def stress_at_interfaces(state: State, *, body_number: int = 2) -> Stress:
 def with_contact(below: Stress, state: State, *, anywhere: bool) -> Stress:
     """Add the scales of the contact, and the error of its tractions, to a stress below it.
 
-    `anywhere`: the largest value is that of the whole body, not of the section.
+    `anywhere`: the largest value belongs to the whole body, not to the section.
     """
     scales = {k: v for k, v in state.dataset.attrs.items() if k in ("a_H", "p_H")}
     return below.assign_attrs(scales | stress_error(state) | {"anywhere": int(anywhere)})

@@ -26,15 +26,16 @@ impl<'a> Section<'a> {
             None => Ok(section),
             Some(unknown) => {
                 let key = section.path(unknown);
-                let meant = meant_key(unknown, &section.key, allowed);
-                let nearest = match &meant {
+                let foreign = meant_key(unknown, &section.key, allowed);
+                let nearest = match &foreign {
                     Some(key) => allowed
                         .iter()
                         .find(|&&name| section.path(name) == *key)
                         .map(|&name| name.to_owned()),
                     None => nearest(unknown, allowed),
                 };
-                let hint = match meant.or_else(|| nearest.as_ref().map(|name| section.path(name))) {
+                let hint = match foreign.or_else(|| nearest.as_ref().map(|name| section.path(name)))
+                {
                     Some(key) => format!("the nearest valid key is `{key}`{}", names(allowed)),
                     None => "no key is allowed here".to_owned(),
                 };
