@@ -77,17 +77,17 @@ def test_a_changed_head_is_refused_or_changes_nothing(
             continue
         written = head.read_bytes()
         for key, value in json.loads(written).items():
-            other = json.loads(written) | {key: changed(value)}
-            for both in (False, True):
-                head.write_text(json.dumps(other))
-                if both:
+            document = json.loads(written) | {key: changed(value)}
+            for collects in (False, True):
+                head.write_text(json.dumps(document))
+                if collects:
                     documents = json.loads(whole)
-                    documents["metadata"][head.relative_to(store).as_posix()] = other
+                    documents["metadata"][head.relative_to(store).as_posix()] = document
                     collected.write_text(json.dumps(documents))
-                text = f"{head.parent.name}: {key} = {other[key]!r}, both {both}"
+                text = f"{head.parent.name}: {key} = {document[key]!r}, collected {collects}"
                 try:
                     opened = fret.open(store).dataset.load()
-                    if not both:
+                    if not collects:
                         wrong.append(f"{text}: is not noticed")
                     for name, variable in expected.items():
                         np.testing.assert_array_equal(opened[name], variable, text)

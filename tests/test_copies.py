@@ -142,7 +142,7 @@ print(f"{moves} moves")
 
 @pytest.mark.slow
 def test_a_study_goes_on_wherever_its_writing_is_ended(tmp_path: Path) -> None:
-    """At every move of a file the next call leaves the same bytes and nothing else."""
+    """Leave the same bytes and nothing else, with an end at every move of a file."""
     command = [sys.executable, "-c", STUDIES, str(tmp_path)]
     ended = subprocess.run(command, check=True, capture_output=True, text=True)
     *wrong, moves = ended.stdout.splitlines()
