@@ -12,6 +12,7 @@ import argparse
 import resource
 import time
 import warnings
+from typing import Literal
 
 import numpy as np
 
@@ -20,7 +21,8 @@ from pyfret import fatigue
 
 R, W, MU = 0.018, 1e3, 0.3
 STEEL = fret.Elastic(E=210e9, nu=0.3)
-MATERIAL, CRITERION = "steel_42CrMo4", "smith_watson_topper"
+MATERIAL = "steel_42CrMo4"
+CRITERION: Literal["smith_watson_topper"] = "smith_watson_topper"
 
 
 def contact(cells: int) -> fret.Scene:

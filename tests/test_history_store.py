@@ -16,6 +16,7 @@ import pyfret as fret
 from conftest import MU, W, sphere_on_flat
 from pyfret import fatigue
 from pyfret._core import run_command
+from pyfret._util.progress import Progress
 from pyfret.history import read_history
 from pyfret.history.table import HistoryTable
 
@@ -165,6 +166,18 @@ def test_a_store_of_another_history_is_refused(tmp_path: Path) -> None:
     changed = fret.LoadHistory.from_array(T_x=0.9 * FORCE)
     with pytest.raises(ValueError, match="holds the table of another scene or history"):
         HistoryTable.build(contact(16), changed, store=tmp_path, progress=False)
+
+
+@pytest.mark.solves
+def test_the_runs_of_a_table_are_counted_for_a_progress_bar(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    counts: list[tuple[int, int]] = []
+    monkeypatch.setattr(Progress, "observer", lambda done, total: counts.append((done, total)))
+    history = fret.LoadHistory.from_array(T_x=FORCE)
+    HistoryTable.build(contact(16), history)
+    # One run presses the bodies, one goes through the loops.
+    assert sum(done == total for done, total in counts) == 2
 
 
 def wear_of(store: Path) -> None:

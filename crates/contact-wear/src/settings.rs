@@ -134,6 +134,12 @@ impl Wear {
     /// Fails with the key, the value and the allowed values if the settings are not valid for a
     /// scene.
     pub fn check(&self, scene: &Scene) -> Result<(), Error> {
+        self.check_settings(scene)?;
+        self.check_cycle(scene)
+    }
+
+    /// Fails if these settings do not fit a scene, whatever its cycle is.
+    pub(crate) fn check_settings(&self, scene: &Scene) -> Result<(), Error> {
         if !(1.0..=MOST_CYCLES).contains(&self.cycles) {
             let allowed = format!("1 to {MOST_CYCLES:e}");
             return Err(Error::invalid("wear.cycles", self.cycles, allowed));
@@ -165,6 +171,34 @@ impl Wear {
                 "a law for one of the bodies at least",
             ));
         }
+        if !(0.0..=1.0).contains(&self.debris_kept) {
+            return Err(Error::invalid(
+                "wear.debris_kept",
+                self.debris_kept,
+                "between 0 and 1",
+            ));
+        }
+        self.check_third_body()?;
+        if !(self.event_depth_fraction > 0.0 && self.event_depth_fraction <= 1.0) {
+            return Err(Error::invalid(
+                "wear.event_depth_fraction",
+                self.event_depth_fraction,
+                "above 0, at most 1",
+            ));
+        }
+        if scene.friction.mu == 0.0 || scene.friction.mu.is_infinite() {
+            let allowed = "a finite coefficient above 0 for wear";
+            return Err(Error::invalid("friction.mu", scene.friction.mu, allowed));
+        }
+        if scene.friction.depends_on(Dependence::Increments) {
+            let allowed = "\"cycles\", \"slip\" or \"dissipated\" over cycles of wear";
+            return Err(Error::invalid("friction.history.of", "increment", allowed));
+        }
+        self.jumps.check()
+    }
+
+    /// Fails if the path of a scene has no cycle for these settings, or they lack its frequency.
+    fn check_cycle(&self, scene: &Scene) -> Result<(), Error> {
         let needs = |body: &BodyWear| body.laws.iter().any(|law| law.needs_frequency());
         match self.frequency {
             Some(f) if !(f > 0.0 && f.is_finite()) => {
@@ -190,36 +224,13 @@ impl Wear {
                 ),
             ));
         }
-        if !(0.0..=1.0).contains(&self.debris_kept) {
-            return Err(Error::invalid(
-                "wear.debris_kept",
-                self.debris_kept,
-                "between 0 and 1",
-            ));
-        }
-        self.check_third_body()?;
-        if !(self.event_depth_fraction > 0.0 && self.event_depth_fraction <= 1.0) {
-            return Err(Error::invalid(
-                "wear.event_depth_fraction",
-                self.event_depth_fraction,
-                "above 0, at most 1",
-            ));
-        }
-        if scene.friction.mu == 0.0 || scene.friction.mu.is_infinite() {
-            let allowed = "a finite coefficient above 0 for wear";
-            return Err(Error::invalid("friction.mu", scene.friction.mu, allowed));
-        }
-        if scene.friction.depends_on(Dependence::Increments) {
-            let allowed = "\"cycles\", \"slip\" or \"dissipated\" over cycles of wear";
-            return Err(Error::invalid("friction.history.of", "increment", allowed));
-        }
         let (scene, first_branch) = self.with_cycle(scene)?;
         Self::check_closed(&scene, first_branch)?;
         self.check_counts(scene.path.branches.len() - first_branch)?;
         if self.cycling == Cycling::Sliding {
             stroke(&scene, first_branch)?;
         }
-        self.jumps.check()
+        Ok(())
     }
 
     /// How often a cycle passes a branch, counted from 0 at its first one.

@@ -71,7 +71,10 @@ impl Wear {
             let (wear, rig) = (wear(&section)?, rig_stiffness(&section)?);
             let mut scene = scene.clone();
             scene.path.rig_stiffness = rig.or(scene.path.rig_stiffness);
-            wear.check(&scene)?;
+            wear.check_settings(&scene)?;
+            if !has_history(root) {
+                wear.check(&scene)?;
+            }
             Ok(Some((wear, scene)))
         };
         let (scene, wear) = read_scene_and(text, file, settings, reach, check_both)?;
@@ -113,7 +116,7 @@ impl Wear {
         file: &str,
         own: &[Vec<Arc<dyn Law>>; 2],
     ) -> Result<(Scene, Self), Error> {
-        let (scene, mut wear) = read_unchecked(text, file, &[], Reach::Folder)?;
+        let (scene, mut wear, _) = read_unchecked(text, file, &[], Reach::Folder)?;
         wear.set_laws(own);
         wear.check(&scene)?;
         Ok((scene, wear))
@@ -180,25 +183,34 @@ impl Wear {
 }
 
 fn read(text: &str, file: &str, settings: &[String], reach: Reach) -> Result<(Scene, Wear), Error> {
-    let (scene, wear) = read_unchecked(text, file, settings, reach)?;
-    wear.check(&scene)?;
+    let (scene, wear, has_history) = read_unchecked(text, file, settings, reach)?;
+    wear.check_settings(&scene)?;
+    if !has_history {
+        wear.check(&scene)?;
+    }
     Ok((scene, wear))
 }
 
-/// The scene, with the rig of `[wear]` where it has one, and its wear.
+/// Whether the cycle of a scene follows from its load history, so that its path has none.
+fn has_history(root: &Section<'_>) -> bool {
+    root.get("history").is_some()
+}
+
+/// The scene, with the rig of `[wear]` where it has one, its wear, and whether it has a history.
 fn read_unchecked(
     text: &str,
     file: &str,
     settings: &[String],
     reach: Reach,
-) -> Result<(Scene, Wear), Error> {
+) -> Result<(Scene, Wear, bool), Error> {
     let read_both = |root: &Section<'_>, _: &Scene| {
         let section = root.require_section("wear", &KEYS)?;
-        Ok((wear(&section)?, rig_stiffness(&section)?))
+        Ok((wear(&section)?, rig_stiffness(&section)?, has_history(root)))
     };
-    let (mut scene, (wear, rig)) = read_scene_and(text, file, settings, reach, read_both)?;
+    let (mut scene, (wear, rig, has_history)) =
+        read_scene_and(text, file, settings, reach, read_both)?;
     scene.path.rig_stiffness = rig.or(scene.path.rig_stiffness);
-    Ok((scene, wear))
+    Ok((scene, wear, has_history))
 }
 
 /// Reads the spring of the rig, which may stand in `[wear]` instead of `[rig]`.

@@ -123,7 +123,7 @@ class Damage(Saveable, Labelled, Figured):
                 f"{_core.rough(self.repeats)} passes until a crack has started",
             ]
         parts = [
-            f"{name} {100.0 * error / self.worst:.2g} %"
+            f"{name} {_core.rough(100.0 * error / self.worst)} %"
             for name, error in self.errors.items()
             if self.worst > 0.0 and error > 5e-4 * self.worst
         ]

@@ -20,6 +20,7 @@ from pyfret import _core
 from pyfret._util.lazy import xr
 from pyfret.fatigue.cycle_section import max_path_error, section_body
 from pyfret.history.states import LoopStates, branch_ends
+from pyfret.history.table import COARSE_FACTOR
 from pyfret.quantities import as_layers
 
 if TYPE_CHECKING:
@@ -32,8 +33,6 @@ if TYPE_CHECKING:
 
 __all__ = ["damage_errors"]
 
-#: Error over the change to cells twice as large, as for the worst point of a criterion.
-COARSE_FACTOR = 1.25
 #: Classes of range and mean for the error of the classes.
 FEWER_CLASSES = (20, 4)
 #: Error over the change to half as many parts of a piecewise linear interpolation.

@@ -9,6 +9,7 @@ difference is the error (:mod:`pyfret.history.stretch`).
 
 from __future__ import annotations
 
+import math
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -53,6 +54,8 @@ MOST_LOOPS, CLASSES = 400, (40, 8)
 UNCOUPLED = "skipped: normal-tangential coupling"
 #: Settling loops of a contact whose pressure depends on its shear.
 SETTLING = 2
+#: Error over the change to cells twice as large, as for the worst point of a criterion.
+COARSE_FACTOR = 1.25
 #: Cells along x from which half of them are marched, too.
 LEAST_CELLS = 32
 
@@ -81,9 +84,11 @@ class HistoryTable:
         #: The run on half of the cells along each side.
         self.coarse_run: Run | None = None
 
-    def _energies_of(self, branches: list[tuple[int, int]]) -> NDArray[np.float64]:
+    def _energies_of(
+        self, branches: list[tuple[int, int]], run: Run | None = None
+    ) -> NDArray[np.float64]:
         """Return the energy of ranges of branches, first to last [J]."""
-        dissipated = self.run.branches().dissipated.values
+        dissipated = (run or self.run).branches().dissipated.values
         return np.array([float(dissipated[a : b + 1].sum()) for a, b in branches])
 
     @classmethod
@@ -226,17 +231,30 @@ class HistoryTable:
         # Of a piecewise linear interpolation, half of the distance leaves a quarter of the error.
         return abs(difference) / max(self.total_energy, 1e-300) / 3.0
 
-    @property
-    def energy_error(self) -> float:
-        """Part of the energy that may be wrong: by interpolation, increments, memory."""
-        memory = self.check.energy_error if self.check is not None else 0.0
-        return self.interpolation_error + memory + self.path_error
+    @cached_property
+    def energy_errors(self) -> dict[str, float]:
+        """Parts of the energy that may be wrong, by their sources, as for damage."""
+        path_error = self.run.dataset.attrs.get("path_error")
+        errors = {
+            "amplitudes": self.interpolation_error,
+            "increments": float(np.max(path_error)) if path_error else 0.0,
+        }
+        if self.check is not None:
+            errors["memory"] = self.check.energy_error
+        if self.coarse_run is not None:
+            coarse = self._energies_of(self.ladder.branches[::-1], self.coarse_run)
+            levels = loops_as_levels(self.loops)
+            by_coarse, by_fine = (
+                float((levels[:, 2] * interpolate_energy(self.amplitudes, e, levels[:, 0])).sum())
+                for e in (coarse, self.energies)
+            )
+            errors["cells"] = COARSE_FACTOR * abs(by_coarse / max(by_fine, 1e-300) - 1.0)
+        return errors
 
     @property
-    def path_error(self) -> float:
-        """Part of the shear that the increments of the path leave wrong, where they are chosen."""
-        errors = self.run.dataset.attrs.get("path_error")
-        return float(np.max(errors)) if errors else 0.0
+    def energy_error(self) -> float:
+        """Part of the energy that may be wrong: the sum of :attr:`energy_errors`."""
+        return math.fsum(self.energy_errors.values())
 
     @property
     def notes(self) -> list[str]:
