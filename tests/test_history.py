@@ -288,6 +288,33 @@ def test_a_recording_of_labview_is_read() -> None:
     assert history.channels["T_x"].size > 2
 
 
+def test_a_recording_has_one_clock_and_keeps_it(tmp_path: Path) -> None:
+    nptdms = pytest.importorskip("nptdms")
+    path = tmp_path / "rig.tdms"
+
+    def write(step: float, size: int) -> None:
+        channels = [
+            nptdms.ChannelObject(
+                "rig",
+                name,
+                np.arange(n, dtype=float) % 7.0,
+                properties={"unit_string": "N", "wf_increment": dt},
+            )
+            for name, n, dt in (("T_x", 50, 0.01), ("W", size, step))
+        ]
+        with nptdms.TdmsWriter(path) as file:
+            file.write_segment(channels)
+
+    write(0.01, 50)
+    history = fret.LoadHistory.from_csv(path)
+    assert history.duration == pytest.approx(0.5)
+    assert set(history.channels) == {"T_x", "W"}
+    for step, size in ((0.1, 5), (0.02, 50)):
+        write(step, size)
+        with pytest.raises(ValueError, match="different clocks: must have one"):
+            fret.LoadHistory.from_csv(path)
+
+
 def test_the_memory_of_a_linear_contact_is_its_load() -> None:
     amplitudes = np.array([0.1, 0.35, 0.6, 1.0])
     values = np.random.default_rng(0).uniform(-1.0, 1.0, 3000)

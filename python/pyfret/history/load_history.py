@@ -210,9 +210,12 @@ class LoadHistory(HoldsArrays, Figured):
             index = table.index(clock_name)
             table.must_measure(index, "time")
             indices.append(index)
+        own_clock = clock_of_channels(table, indices)
         *values, last = table.numbers(*indices)
         arrays = [*values] if clock_name is not None else [*values, last]
         clock: NDArray[np.float64] | None = last if clock_name is not None else None
+        if clock is None and frequency is None:
+            clock = own_clock
         read, clock = read_channels(
             dict(zip(columns, arrays, strict=True)), clock, f"{table.place}: "
         )
@@ -435,6 +438,25 @@ class LoadHistory(HoldsArrays, Figured):
         others = [name for name in self.channels if name != self.channel]
         beside = f", with {', '.join(others)}" if others else ""
         return f"{self.channel}: {values.size} values, {ranges}{beside}{clock}"
+
+
+def clock_of_channels(table: Any, indices: Sequence[int]) -> NDArray[np.float64] | None:
+    """Return the instants of the channels of a recording; None where they have no clock.
+
+    Channels of different clocks are refused: resampling them would lose turning points.
+    """
+    channels = getattr(table, "channels", None)
+    if channels is None:
+        return None
+    chosen = [channels[index] for index in indices]
+    if not table.is_one_clock(chosen):
+        sizes = ", ".join(f"{channel.name} has {channel.size} samples" for channel in chosen)
+        raise ValueError(
+            f"{table.place}: {sizes}, and they have different clocks: must have one, since a "
+            "history keeps every turning point; name the columns of one clock by columns={...}"
+        )
+    first = chosen[0]
+    return None if first.clock is None else np.asarray(first.clock(), dtype=float)
 
 
 def in_unit_of(channel: str, value: Quantity) -> float:
