@@ -52,6 +52,10 @@ html_theme_options = {
         "color-background-primary": values["--ground"],
         "color-foreground-primary": values["--ink"],
         "font-stack": values["--font"],
+        # No text below 12 pixels.
+        "sidebar-caption-font-size": "0.8rem",
+        "toc-title-font-size": "0.8rem",
+        "toc-font-size": "0.8rem",
     }
     for name, values in (("light", theme.variables()), ("dark", theme.variables(dark=True)))
 }

@@ -127,6 +127,18 @@ def test_the_sheet_of_the_book_is_as_new_as_the_code(name: str, tmp_path: Path) 
     assert compare_images(str(picture), str(tmp_path / "now.png"), tol=ALIKE) is None
 
 
+@pytest.mark.slow
+def test_the_cards_of_the_book_are_as_new_as_the_code(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    cards = plot_page.PICTURES.parent / "cards"
+    monkeypatch.setattr(plot_page, "PICTURES", tmp_path / "plots")
+    plot_page.draw_cards(names())
+    for name in plot_page.CARDS:
+        drawn_now = str(tmp_path / "cards" / f"{name}.png")
+        assert compare_images(str(cards / f"{name}.png"), drawn_now, tol=ALIKE) is None, name
+
+
 def lightness(colour: str) -> float:
     """CIE L* of a colour, as it is seen in grey print."""
     rgb = np.array(to_rgb(colour))

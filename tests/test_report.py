@@ -344,7 +344,7 @@ def test_a_film_of_a_cycle(result: fret.Result, tmp_path: Path) -> None:
         fret.plot.animate(result, tmp_path / "cycle.avi")
     pytest.importorskip("imageio_ffmpeg")
     fret.plot.animate(result, tmp_path / "cycle.mp4", increments=[3, 7, 11], dpi=40, fps=4)
-    film = frames_of(tmp_path / "cycle.mp4", 440, 144)
+    film = frames_of(tmp_path / "cycle.mp4", 296, 112)
     assert len(film) == 3
     # Outside the maps, the dot and the time, all frames are alike: axes and scales are fixed.
     corner = film[0].shape[0] - 12

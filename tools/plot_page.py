@@ -13,6 +13,7 @@ import re
 import warnings
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
@@ -21,6 +22,7 @@ from PIL import Image
 
 import pyfret as fret
 from pyfret import plot
+from pyfret.plot import sizes
 
 DOCS = Path(__file__).parents[1] / "docs"
 PICTURES = DOCS / "figures" / "plots"
@@ -292,15 +294,32 @@ def names() -> dict[str, Any]:
     }
 
 
-def picture(drawn: Any, place: Path) -> None:
+def picture(drawn: Any, place: Path, pixels: float = PIXELS) -> None:
     """A picture of a figure at the size at which it is read, of few colours."""
     figure = drawn if hasattr(drawn, "savefig") else drawn.get_figure()
     file = io.BytesIO()
-    figure.savefig(file, dpi=min(PIXELS, WIDTH / figure.get_size_inches()[0]))
+    figure.savefig(file, dpi=min(pixels, WIDTH / figure.get_size_inches()[0]))
     plt.close(figure)
     # Colours of few pixels, such as those of marks, are kept.
     few = Image.open(file).convert("RGB").quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE)
     few.save(place, optimize=True)
+
+
+#: Figures of the landing page, each half as wide as its text: letters have 12 pixels and more.
+CARDS = ("stick_slip", "stress_map", "fretting_map", "wear_profiles")
+#: Size of the text of cards [points], and their pixels per inch.
+TEXT_OF_CARDS, PIXELS_OF_CARDS = 9.0, 220
+
+
+def draw_cards(given: dict[str, Any]) -> None:
+    """Draw the cards of the landing page: figures of a column with larger text."""
+    place = PICTURES.parent / "cards"
+    place.mkdir(exist_ok=True)
+    codes = {name: code for figures in FIGURES.values() for name, code in figures.items()}
+    with patch.object(sizes, "TEXT_OF_COLUMNS", TEXT_OF_CARDS):
+        for name in CARDS:
+            drawn = eval(codes[name].removesuffix(")") + ', width="column")', given)
+            picture(drawn, place / f"{name}.png", PIXELS_OF_CARDS)
 
 
 def summary(name: str) -> str:
@@ -342,7 +361,8 @@ def main() -> None:
     warnings.simplefilter("ignore")
     PICTURES.mkdir(parents=True, exist_ok=True)
     given = names()
-    plot.animate(given["result"], PICTURES.parent / "contact.gif", fps=4, dpi=60)
+    plot.animate(given["result"], PICTURES.parent / "contact.gif", fps=4, dpi=100)
+    draw_cards(given)
     for figures in FIGURES.values():
         for name, code in figures.items():
             picture(eval(code, given), PICTURES / f"{name}.png")

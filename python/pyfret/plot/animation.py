@@ -24,6 +24,10 @@ if TYPE_CHECKING:
     from pyfret.run import Run
 
 
+#: Width and height of a frame [inch]: letters of 12 pixels in a page of 740.
+FRAME = (7.4, 2.8)
+
+
 def common_limits(
     snapshots: Sequence[Any], draw: Callable[..., Any], ax: Axes
 ) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -44,7 +48,7 @@ def animate(
     *,
     increments: Sequence[int] | None = None,
     fps: int = 12,
-    dpi: int = 100,
+    dpi: int = 150,
 ) -> None:
     """Write the loop, the stick and slip zones and the shear of a path as a film.
 
@@ -63,7 +67,7 @@ def animate(
     fps : int
         Frames per second.
     dpi : int
-        Pixels per inch; a frame is 11 by 3.6 inches.
+        Pixels per inch; a frame is 7.4 by 2.8 inches.
 
     Raises
     ------
@@ -94,7 +98,7 @@ def animate(
     snapshots = [result.at(int(n)) for n in kept]
     largest = max(float(np.hypot(at.q_x.values, at.q_y.values).max()) for at in snapshots)
     mu_p = result.mu * result.p_H if "p_H" in result.dataset.attrs else 1e6
-    figure, row = plt.subplots(1, 3, figsize=(11, 3.6), layout="constrained")
+    figure, row = plt.subplots(1, 3, figsize=FRAME, layout="constrained")
     fretting_loop(result, ax=row[0], color="0.75")
     (dot,) = row[0].plot([], [], "o", color="C1", markersize=7)
     maps: list[Callable[..., Any]] = [
