@@ -18,11 +18,17 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     import xarray as xr
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
 
     from pyfret.run import State
 
-__all__ = ["displacement_below", "stress_at_interfaces", "stress_below", "write_below"]
+__all__ = [
+    "displacement_below",
+    "sample_interfaces",
+    "stress_at_interfaces",
+    "stress_below",
+    "write_below",
+]
 
 
 def stress_below(
@@ -56,6 +62,19 @@ def stress_at_interfaces(state: State, *, body_number: int = 2) -> Stress:
     depths = fields.interfaces(body)
     below = fields.sampled_stress(loaded, body, grid, depths, main_line(state), state.length)
     return with_contact(below, state, anywhere=True)
+
+
+def sample_interfaces(state: State, *, body_number: int = 2) -> NDArray[np.float64]:
+    """Return the stress above every interface on the section of :func:`stress_at_interfaces`.
+
+    The array has the six components, then the samples. The stresses that act on an interface are
+    the same on both sides.
+    """
+    depths = fields.interfaces(state.body(body_number))
+    loaded = loaded_by(state, body_number, bulk=True, residual=None)
+    upper_layers = list(range(len(depths)))
+    section = main_line(state).named()
+    return np.reshape(loaded.section(depths, upper_layers, displacement=False, **section), (6, -1))
 
 
 def with_contact(below: Stress, state: State, *, anywhere: bool) -> Stress:
