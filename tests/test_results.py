@@ -120,10 +120,11 @@ def test_a_line_is_the_mean_of_the_rows_beside_it(coated: fret.Result) -> None:
 
 
 def test_the_summary_has_a_line_per_branch(coated: fret.Result) -> None:
-    title, header, *lines = coated.summary().splitlines()
+    title, *lines = coated.summary().splitlines()
     warned = [line for line in lines if line.startswith("warning: ")]
     assert [line.removeprefix("warning: ") for line in warned] == coated.doubts
-    rows = [line for line in lines if not line.startswith(("cycle", "warning", "a_H"))]
+    ruler = next(n for n, line in enumerate(lines) if set(line) == {"-"})
+    header, rows = lines[ruler - 2], lines[ruler + 1 : len(lines) - len(warned)]
     [over] = [line for line in lines if line.startswith("a_H")]
     assert f"p_H = {1e-6 * coated.p_H:.0f}" in over
     cycles = [line for line in lines if line.startswith("cycle")]

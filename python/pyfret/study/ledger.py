@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
 __all__ = ["FILE", "Ledger", "attributes", "checksum"]
 
+#: Codes of the status of points that were solved.
+SOLVED = (1, 3)
 #: Name of the file in the store.
 FILE = "status/.points"
 
@@ -138,8 +140,8 @@ class Ledger:
             where = ", ".join(f"{dim} {int(i)}" for dim, i in indices.items())
             if status[n] != code and n != self.last:
                 raise StoreError(f"{self.place}: status of point {where}: is not what was written")
-            if "seconds" in dataset and np.isnan(dataset["seconds"].values.ravel()[n]):
-                # Times differ from run to run and have no checksum: each point has one.
+            if code in SOLVED and not dataset["seconds"].values.ravel()[n] > 0.0:
+                # Times differ from run to run and have no checksum. A solved point has one.
                 raise StoreError(
                     f"{self.place}: seconds of point {where}: a file of seconds is missing"
                 )
