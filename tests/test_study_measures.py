@@ -160,7 +160,7 @@ def test_a_parameter_is_drawn_with_the_others_as_lines_and_errors_as_bands() -> 
     assert low == pytest.approx(0.9 * 0.5)
     texts = [text.get_text() for text in axes.get_legend().get_texts()]
     assert texts[3] == "radius, body 1 = 10 mm, speed = 2"
-    kept = fret.plot.study_line(study, "p_max", along="mu", at={"speed": 2.0})
+    kept = study.line("p_max", along="mu", at={"speed": 2.0})
     assert len(kept.get_lines()) == 2
     estimate = fret.plot.study_line(table(spread=False), along="mu", at={"speed": 1.0})
     assert not estimate.collections

@@ -229,6 +229,12 @@ class Study(Saveable, Labelled, Figured):
 
         return study_map(self, of, ax=ax, **options)
 
+    def line(self, of: str | None = None, *, ax: Axes | None = None, **options: Any) -> Drawn:
+        """Draw a measure over one parameter: :func:`pyfret.plot.study_line`."""
+        from pyfret.plot import study_line
+
+        return study_line(self, of, ax=ax, **options)
+
     def _repr_html_(self) -> str:
         """Return a table for notebooks."""
         return study_html(self)
