@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from pyfret._core import StoreError
 from pyfret._util import files
+from pyfret._util.stores import check_heads
 
 if TYPE_CHECKING:
     import os
@@ -30,6 +31,9 @@ def open_dataset(path: str | os.PathLike[str]) -> xr.Dataset:
     else:
         files.checked(path, chunks=False)
         dataset = import_module("pyfret.run.checked_store").open_checked(path)
+        if dataset.attrs.get("status") == "done":
+            # While a run goes on, arrays grow before the collected metadata.
+            check_heads(path)
     if "scene" not in dataset.attrs or "increment" not in dataset.sizes:
         raise StoreError(f"{fspath(path)}: is no result of pyfret: it has no scene or no increment")
     opened: xr.Dataset = dataset
