@@ -178,8 +178,8 @@ def read(scene: Scene | str | os.PathLike[str]) -> Scene:
         return scene
     if not isinstance(scene, (str, os.PathLike)):
         raise TypeError(
-            f"{scene!r}: must be a scene, or the name of its file; the load path comes after it: "
-            "solve(scene, path)"
+            f"scene = {scene!r:.60}: must be a scene, or the name of its file; the load path comes "
+            "after it: solve(scene, path)"
         )
     return Scene.from_file(scene)
 

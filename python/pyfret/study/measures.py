@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -385,6 +385,8 @@ def function_name(function: Any) -> str:
 
 def check_measures(measure: Measure | Sequence[Measure]) -> list[Measure]:
     """Return the measures as a list; a ValueError for an unknown measure lists the names."""
+    if not (isinstance(measure, str | Iterable) or callable(measure)):
+        raise TypeError(f"measure = {measure!r:.60}: must be a function or the name of a measure")
     measures = [measure] if isinstance(measure, str) or callable(measure) else list(measure)
     for entry in measures:
         if isinstance(entry, str) and entry not in MEASURES:

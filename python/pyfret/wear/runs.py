@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from os import fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -82,6 +83,8 @@ def solve(
         A setting has no such name; the message offers the nearest.
     """
     if not isinstance(scene, Scene):
+        if not isinstance(scene, str | os.PathLike):
+            raise TypeError(f"scene = {scene!r:.60}: must be a scene, or the name of its file")
         if history is None and path is None:
             history = read_history(scene)
         scene, of_file = _core.wear_of_file(scene)
