@@ -1,11 +1,11 @@
 import os
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
-from typing import Any, Final, Literal, final
+from typing import Any, Final, Literal, SupportsIndex, final
 
 import numpy as np
 import xarray as xr
-from _typeshed import Incomplete
+from _typeshed import Incomplete, SupportsGetItem
 from matplotlib.axes import Axes
 from numpy import bool_, float64
 from numpy.typing import ArrayLike, NDArray
@@ -472,6 +472,19 @@ class CattaneoMindlin:
         """
 
 @final
+class CheckedStore:
+    """A result store whose values are checked when they are read; use :func:`pyfret.open`."""
+
+    def __new__(cls, /, store: str | PathLike[str]) -> CheckedStore:
+        """Opens a store and checks its metadata."""
+    def attributes(self, /) -> str:
+        """Return the attributes of the group as JSON."""
+    def check(self, /) -> None:
+        """Fail if a file of the store is missing or is not as it was written."""
+    def check_part(self, /, name: str, first: SupportsIndex, end: SupportsIndex) -> None:
+        """Fail if a chunk with entries from `first` to before `end` is missing or damaged."""
+
+@final
 class CoatedIndentation:
     """Frictionless contact of a sphere with a body that has one coating."""
 
@@ -575,18 +588,6 @@ class Cone:
     @property
     def slope(self, /) -> float:
         """Tangent of the angle between flank and contact plane."""
-
-@final
-class CheckedStore:
-    """A result store whose values are checked when they are read; use :func:`pyfret.open`."""
-
-    def __new__(cls, /, store: str | PathLike[str]) -> CheckedStore: ...
-    def attributes(self, /) -> str:
-        """Return the attributes of the group as JSON."""
-    def check(self, /) -> None:
-        """Fail if a file of the store is missing or is not as it was written."""
-    def check_part(self, /, name: str, first: int, end: int) -> None:
-        """Fail if a chunk with entries from `first` to before `end` is missing or damaged."""
 
 @final
 class ContactForCracks:
@@ -4189,7 +4190,12 @@ def stress_coefficients(
 def surface_frf(body: Body, k_x: ArrayLike, k_y: ArrayLike) -> NDArray[np.complex128]:
     """Surface response at one-dimensional arrays of wave numbers; see :mod:`pyfret.kernels`."""
 
-def table_text(titles: Sequence[str], rows: Sequence[Sequence[str]], keys: int, width: int) -> str:
+def table_text(
+    titles: SupportsGetItem[int, str],
+    rows: SupportsGetItem[int, SupportsGetItem[int, str]],
+    keys: SupportsIndex,
+    width: SupportsIndex,
+) -> str:
     """
     A table as text, of lines of at most `width` characters.
 
@@ -4240,7 +4246,7 @@ def with_error(value: float, error: float | None = None) -> str:
 def with_range(value: float, low: float, high: float) -> str:
     """A number and the range that it lies in, with the digits that the range leaves."""
 
-def wrap_text(text: str, width: int) -> str:
+def wrap_text(text: str, width: SupportsIndex) -> str:
     """A text whose lines that are wider than `width` are wrapped."""
 
 def yielded_columns() -> list[str]:
@@ -4419,6 +4425,7 @@ __all__ = [
     "stress_at",
     "stress_coefficients",
     "surface_frf",
+    "table_text",
     "threshold_at",
     "unit_of",
     "units",
@@ -4428,6 +4435,7 @@ __all__ = [
     "wear_of_file",
     "with_error",
     "with_range",
+    "wrap_text",
     "yielded_columns",
     "yielding_on",
 ]
