@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import json
 import pickle
+import re
 from typing import TYPE_CHECKING
 
 import matplotlib as mpl
@@ -421,7 +422,9 @@ def test_command(pulled: fret.Result, tmp_path: Path, capsys: pytest.CaptureFixt
     grown = ["crack", str(store), "--grow", "tangential_stress", "--lengths", "3e-5,2e-4"]
     assert commands.main([*grown, "--dK-th", "1e3", "--paris", "1e-11,3"]) == 0
     output = capsys.readouterr().out
-    assert output.count("MPa m^0.5") >= 9
+    rows = [line for line in output.splitlines() if re.match(r"\s*[\d.]+ um ", line)]
+    assert len(rows) >= 9, output
+    assert output.count("MPa m^0.5") == 4
     assert " cycles" in output
     kinked = ["crack", str(store), "--lengths", lengths, "--kink", "5e-5,20", "--aspect", "0.8"]
     assert commands.main(kinked) == 0
@@ -568,7 +571,7 @@ def test_command_figure_page_and_json_have_one_verdict(
     message = ["crack", str(tmp_path / "rig.nc"), "--lengths", "1e-5,3e-5,1e-4,3e-4"]
     message += ["--dK-th", dK_th, "--paris", "1e-11,3"]
     assert commands.main(message) == 0
-    line = capsys.readouterr().out.splitlines()[-1]
+    line = capsys.readouterr().out.splitlines()[0]
     assert commands.main([*message, "--json"]) == 0
     row = json.loads(capsys.readouterr().out.splitlines()[-1])
     cracks = pulled.crack(lengths=[1e-5, 3e-5, 1e-4, 3e-4])
@@ -599,7 +602,7 @@ def test_a_note_on_estimates_stands_once_in_a_line(
     pulled.save(tmp_path / "rig.nc")
     message = ["crack", str(tmp_path / "rig.nc"), "--lengths", "1e-5,3e-5,1e-4,3e-4"]
     assert commands.main([*message, "--material", "titanium_6Al4V", "--paris", "1e-11,3"]) == 0
-    assert capsys.readouterr().out.splitlines()[-1].count("estimate: ") == 1
+    assert capsys.readouterr().out.count("estimate: ") == 1
 
 
 def test_an_angle_in_degrees_is_refused_in_radians(pulled: fret.Result) -> None:

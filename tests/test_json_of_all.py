@@ -229,7 +229,7 @@ def test_a_threshold_that_rests_on_an_estimate_says_so(folder: Path, material: s
     assert ("estimate" in row) == marked
     # The scene is a line contact.
     assert row["unit"] == "N/m"
-    assert run.stdout.count(" N/m") == 4, run.stdout
+    assert run.stdout.count("[N/m]") == 4, run.stdout
 
 
 def test_one_function_writes_what_the_compiled_commands_print() -> None:
