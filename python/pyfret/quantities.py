@@ -178,6 +178,13 @@ def checked(call: C, dataclass: type | None = None) -> C:
         except (TypeError, ValueError, LookupError, OSError) as error:
             abridge_error(error)
             raise
+        except (AttributeError, RecursionError) as error:
+            named = dict(zip(read().names, values, strict=False)) | keywords
+            wrong = [key for key, value in named.items() if is_of_wrong_class(value, error)]
+            if not wrong:
+                raise
+            classes = ", ".join(f"{key} is a {type(named[key]).__name__}" for key in wrong)
+            raise TypeError(f"{name}: {classes}, which it does not take") from error
 
     def call_converted(values: tuple[Any, ...], keywords: dict[str, Any]) -> Any:
         signature = read()
@@ -203,6 +210,13 @@ def checked(call: C, dataclass: type | None = None) -> C:
         return answer
 
     return call_checked  # type: ignore[return-value]
+
+
+def is_of_wrong_class(value: object, error: AttributeError | RecursionError) -> bool:
+    """Whether an argument is what an error speaks of: its class, or its endless nesting."""
+    if isinstance(error, RecursionError):
+        return isinstance(value, (list, tuple, dict))
+    return error.obj is value
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(field,))

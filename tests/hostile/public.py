@@ -263,7 +263,6 @@ OF: dict[str, dict[str, Any]] = {
     "reference.LineContact.stress": {"x": 1e-5, "z": 1e-5},
     "wear.WearResult.cycles_to": {"depth": 1e-9},
     "wear.WearResult.error_of": {"quantity": "depth"},
-    "wear.WearResult.largest_pressure": {"jump": -1},
     "wear.WearResult.save": {"path": FOLDER / "w.zarr"},
     "study.Study.save": {"path": FOLDER / "s.zarr"},
     "LoadPath.from_csv": {"path": written("path.csv", "W\n1\n2\n")},

@@ -312,7 +312,7 @@ class WearResult(Saveable, Labelled, Figured):
             if frictionless(self.scene)
             else f"stick ratio {with_error(last['stick_ratio'])}"
         )
-        lines.append(f"largest pressure: {self.largest_pressure(-1)}, {sticks}")
+        lines.append(f"largest pressure: {self._format_largest_pressure(-1)}, {sticks}")
         for event in self.events:
             cycles = with_error(event["cycles"], event.get("cycles_error"))
             lines.append(
@@ -328,7 +328,7 @@ class WearResult(Saveable, Labelled, Figured):
         lines += [f"warning: {doubt}" for doubt in self.doubts]
         return shown("\n".join(lines))
 
-    def largest_pressure(self, jump: int) -> str:
+    def _format_largest_pressure(self, jump: int) -> str:
         """Format the largest pressure after a jump and its error, or why it has none."""
         d = self.dataset
         value = 1e-6 * float(d.p_max[jump])
@@ -380,7 +380,7 @@ class WearResult(Saveable, Labelled, Figured):
         rows = [
             [f"{float(d.cycles[n]):.4g}"]
             + [f"{1e6 * float(d[name][n]):.4g}" for name in ("depth1", "depth2")]
-            + [self.largest_pressure(n)]
+            + [self._format_largest_pressure(n)]
             for n in at
         ]
         heading = ["cycles", "depth, body 1 [µm]", "depth, body 2 [µm]", "p_max"]
