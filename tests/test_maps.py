@@ -162,6 +162,6 @@ def test_an_unknown_revision_is_refused_by_name(tmp_path: Path) -> None:
 
 def test_an_old_release_of_the_library_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """Releases before 1.27.1 read undefined points of a .sur as heights."""
-    monkeypatch.setattr("pyfret.scene.instruments.version", lambda _: "1.25.0")
+    monkeypatch.setattr("importlib.metadata.version", lambda _: "1.25.0")
     with pytest.raises(StoreError, match=r"1\.27\.1 or later, and 1\.25\.0 is installed"):
         fret.read_surface(CORPUS / "gwyddion.gwy")
