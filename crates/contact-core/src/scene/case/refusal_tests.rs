@@ -9,7 +9,6 @@ fn bad_settings_are_named() {
         ("friction.mmu=0.5", "the nearest valid key is `friction.mu`"),
         ("frition.mu=0.5", "the nearest valid key is `friction`"),
         ("pitch=1e-6", "the nearest valid key is `grid.spacing`"),
-        ("grid.pitch=1e-6", "the nearest valid key is `grid.spacing`"),
         ("cof=0.3", "the nearest valid key is `friction.mu`"),
         ("path.0.load=3", "the nearest valid key is `path[0].W`"),
         ("friction.mu", "of the form key=value"),
@@ -37,6 +36,20 @@ fn bad_settings_are_named() {
         let text = error.to_string();
         assert!(text.contains(part), "{text:?} lacks {part:?}");
     }
+}
+
+/// The key that is meant stands beside one that the file has: both faults are reported.
+#[test]
+fn a_key_by_another_word_that_clashes_has_two_faults() {
+    let text = with_settings(&["grid.pitch=1e-6"]).unwrap_err().to_string();
+    assert!(
+        text.contains("the nearest valid key is `grid.spacing`"),
+        "{text}"
+    );
+    assert!(
+        text.contains("grid.extent and grid.spacing are both given"),
+        "{text}"
+    );
 }
 
 #[test]
