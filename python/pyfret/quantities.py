@@ -179,11 +179,11 @@ def checked(call: C, dataclass: type | None = None) -> C:
             abridge_error(error)
             raise
         except (AttributeError, RecursionError) as error:
-            named = dict(zip(read().names, values, strict=False)) | keywords
-            wrong = [key for key, value in named.items() if is_of_wrong_class(value, error)]
+            arguments = dict(zip(read().names, values, strict=False)) | keywords
+            wrong = [key for key, value in arguments.items() if is_of_wrong_class(value, error)]
             if not wrong:
                 raise
-            classes = ", ".join(f"{key} is a {type(named[key]).__name__}" for key in wrong)
+            classes = ", ".join(f"{key} is a {type(arguments[key]).__name__}" for key in wrong)
             raise TypeError(f"{name}: {classes}, which it does not take") from error
 
     def call_converted(values: tuple[Any, ...], keywords: dict[str, Any]) -> Any:
