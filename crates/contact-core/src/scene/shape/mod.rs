@@ -469,7 +469,10 @@ mod tests {
                 let drops = crests.iter().map(|n| cylinder(*n, x, y));
                 let least = drops.fold(f64::INFINITY, f64::min);
                 let drop = ridges(count).drop_at(x, y);
-                assert!((drop - least).abs() < 1e-18, "{count} at {x}, {y}: {drop}, {least}");
+                assert!(
+                    (drop - least).abs() < 1e-18,
+                    "{count} at {x}, {y}: {drop}, {least}"
+                );
             }
             let drops = (-20..=20).map(|n| cylinder(f64::from(n), x, y));
             let least = drops.fold(f64::INFINITY, f64::min);
