@@ -63,7 +63,7 @@ class Drawn:
         below = (
             flat
             if self.s_y is None
-            else flat.replace(plastic=fret.Plastic(self.s_y, hardening=0.1 * self.E[1]))
+            else flat.replace(plastic=fret.Plastic(s_y=self.s_y, hardening=0.1 * self.E[1]))
         )
         options: dict[str, Any] = {}
         if self.residual is not None:
