@@ -100,9 +100,7 @@ CONTACTS = [
 ]
 
 
-# A bulk stress that passes 0 is small there.
 @pytest.mark.slow
-@pytest.mark.filterwarnings("ignore:.*less than any fatigue load")
 def test_the_printed_errors_cover_the_march_of_200_reversals() -> None:
     covered = 0
     for kind, seed in CONTACTS:

@@ -114,3 +114,27 @@ def test_doubtful_numbers_of_wear_and_heat_stay_in_their_results() -> None:
     assert "slip zone is 1.7 cells wide" in cells
     assert all(doubt in worn.summary() for doubt in worn.doubts)
     assert "conductivity = 0.045" in hot.attrs["doubts"]
+
+
+@pytest.mark.parametrize(("largest", "doubted"), [(300e6, False), (300.0, True)])
+@pytest.mark.parametrize("name", ["sigma_B", "sigma_B1"])
+def test_a_bulk_stress_is_doubted_where_it_is_largest(
+    name: str, largest: float, *, doubted: bool
+) -> None:
+    # A swing passes 0: its small values are no mistake of units.
+    steel = fret.Elastic(E=210e9, nu=0.3)
+    path = fret.LoadPath.start().normal(100.0, increments=1)
+    for part in (3e-5, 1.0, -1e-6):
+        path = path.force(increments=1, **{name: part * largest})
+    scene = fret.Scene(
+        body1=fret.Body(steel, shape=fret.Sphere(R=0.01)),
+        body2=fret.Body(steel),
+        friction=0.3,
+        grid=fret.Grid.centred(width=4e-4, n=24),
+        path=path,
+    )
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        fret.solve(scene, progress=False)
+    doubts = [str(item.message) for item in caught if "fatigue load" in str(item.message)]
+    assert [f"path[2].{name}" in text for text in doubts] == [True] * doubted, doubts

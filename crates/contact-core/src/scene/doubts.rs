@@ -9,7 +9,7 @@ use plausible::{UNITS, doubt_of, quantity};
 
 use super::shape::Shape;
 use super::validity::stiffest;
-use super::{Body, Coating, Elastic, Grid, Prescribed, RigidMotion, Scene, SurfaceMap};
+use super::{Body, Branch, Coating, Elastic, Grid, Prescribed, RigidMotion, Scene, SurfaceMap};
 use crate::error::Error;
 
 /// Peak pressure over the contact modulus, or bulk strain, beyond which strains are not small.
@@ -360,30 +360,51 @@ impl Scene {
         doubts
     }
 
-    /// Doubts the load path, on a grid with the side `longer_side`.
+    /// The branch with the largest size of a load over the path, and the load there.
+    fn largest_load(&self, load: impl Fn(&Branch) -> Option<f64>) -> Option<(usize, f64)> {
+        let loads = self.path.branches.iter().map(load).enumerate();
+        let loads = loads.filter_map(|(i, load)| Some((i, load?)));
+        loads.reduce(|largest, next| {
+            if next.1.abs() > largest.1.abs() {
+                next
+            } else {
+                largest
+            }
+        })
+    }
+
+    /// Doubts the load path, on a grid with the side `longer_side`. Bulk stresses and angles are doubted
+    /// where they are largest: a load that swings passes 0.
     fn doubts_of_loads(&self, longer_side: f64) -> Vec<String> {
         let mut doubts = Vec::new();
+        for (name, body) in [("sigma_B", &self.body2), ("sigma_B1", &self.body1)] {
+            let bulk = |branch: &Branch| match name {
+                "sigma_B" => branch.to.sigma_B,
+                _ => branch.to.sigma_B1,
+            };
+            let Some((i, sigma_B)) = self.largest_load(|branch| Some(bulk(branch))) else {
+                continue;
+            };
+            doubts.extend(doubt_of(name, &format!("path[{i}].{name}"), sigma_B));
+            let [strain, _] = body.bulk_strain(sigma_B, self.grid.plane_strain);
+            if strain.abs() > LARGE_STRAIN {
+                doubts.push(format!(
+                    "path[{i}].{name} = {sigma_B:.3e} Pa strains the body by {strain:.2}, which is not \
+                     small: {UNITS}"
+                ));
+            }
+        }
+        for motion in [RigidMotion::PhiX, RigidMotion::PhiY, RigidMotion::PhiZ] {
+            let angle = |branch: &Branch| match branch.to.prescribed(motion) {
+                Prescribed::Motion(angle) => Some(angle),
+                Prescribed::Load(_) => None,
+            };
+            if let Some((i, angle)) = self.largest_load(angle) {
+                let name = format!("path[{i}].{}", motion.name());
+                doubts.extend(doubt_of(&name, &name, angle));
+            }
+        }
         for (i, branch) in self.path.branches.iter().enumerate() {
-            let bulk = [
-                ("sigma_B", branch.to.sigma_B, &self.body2),
-                ("sigma_B1", branch.to.sigma_B1, &self.body1),
-            ];
-            for (name, sigma_B, body) in bulk {
-                doubts.extend(doubt_of(name, &format!("path[{i}].{name}"), sigma_B));
-                let [strain, _] = body.bulk_strain(sigma_B, self.grid.plane_strain);
-                if strain.abs() > LARGE_STRAIN {
-                    doubts.push(format!(
-                        "path[{i}].{name} = {sigma_B:.3e} Pa strains the body by {strain:.2}, which is not \
-                         small: {UNITS}"
-                    ));
-                }
-            }
-            for motion in [RigidMotion::PhiX, RigidMotion::PhiY, RigidMotion::PhiZ] {
-                if let Prescribed::Motion(angle) = branch.to.prescribed(motion) {
-                    let name = format!("path[{i}].{}", motion.name());
-                    doubts.extend(doubt_of(&name, &name, angle));
-                }
-            }
             for motion in [RigidMotion::DeltaX, RigidMotion::DeltaY] {
                 if let Prescribed::Motion(shift) = branch.to.prescribed(motion)
                     && shift.abs() > longer_side
