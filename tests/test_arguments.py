@@ -122,7 +122,7 @@ def test_every_compiled_callable_refuses_keywords(
 
 
 @pytest.mark.parametrize(
-    ("call", "says"),
+    ("call", "expected"),
     [
         (lambda: fret.Elastic(210e9, 0.3), r"Elastic takes arguments by name, Elastic\(E=..., nu="),
         (lambda: fret.History("cycles"), "History is not made: it is one of History.INCREMENT"),
@@ -132,8 +132,10 @@ def test_every_compiled_callable_refuses_keywords(
         (lambda: fret.LoadPath.start().normal(F=3.0), "'F': the nearest is 'W'"),
     ],
 )
-def test_a_wrong_keyword_is_refused_with_the_nearest(call: Callable[[], object], says: str) -> None:
-    with pytest.raises(TypeError, match=says):
+def test_a_wrong_keyword_is_refused_with_the_nearest(
+    call: Callable[[], object], expected: str
+) -> None:
+    with pytest.raises(TypeError, match=expected):
         call()
 
 

@@ -16,7 +16,7 @@ sys.path.insert(0, str(Path(__file__).parent / "campaign"))
 
 from audit import Audit
 from draw import draw
-from run import campaign, fate, told
+from run import campaign, fate, summarise
 
 pytestmark = pytest.mark.solves
 
@@ -70,7 +70,7 @@ def test_most_of_what_is_drawn_is_a_scene() -> None:
 
 def test_scenes_of_everything_are_solved_or_rightly_refused() -> None:
     """A slice of the campaign through scene files: `python tests/campaign/run.py 0 5000`."""
-    lines, right = told(list(campaign(0, 80)))
+    lines, right = summarise(list(campaign(0, 80)))
     assert right, "\n".join(lines)
 
 
@@ -78,7 +78,7 @@ def test_scenes_of_everything_are_solved_or_rightly_refused() -> None:
 def test_what_follows_from_random_contacts_is_found_or_refused_for_a_reason() -> None:
     """A slice of `make whole`: bonds, laws of one's own, heat, cracks, wear with debris."""
     outcomes = list(campaign(0, 24, whole=True))
-    lines, right = told(outcomes)
+    lines, right = summarise(outcomes)
     assert right, "\n".join(lines)
     computed = [
         name

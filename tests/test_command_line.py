@@ -30,7 +30,7 @@ def test_the_same_scene_gives_the_same_bits(coated: fret.Result, tmp_path: Path)
 
 
 @pytest.mark.parametrize(
-    ("setting", "says"),
+    ("setting", "expected"),
     [
         ("friction.mue=0.3", "unknown key"),
         ("friction.mu=-1.0", "friction.mu = -1: must be"),
@@ -45,12 +45,12 @@ def test_the_same_scene_gives_the_same_bits(coated: fret.Result, tmp_path: Path)
     ],
 )
 def test_a_bad_scene_is_refused_with_one_sentence(
-    setting: str, says: str, scene_file: Path, tmp_path: Path
+    setting: str, expected: str, scene_file: Path, tmp_path: Path
 ) -> None:
     out = tmp_path / "out.zarr"
     run = fret_run("run", scene_file, "--set", "grid.n=16", "--set", setting, "-o", out)
     assert run.returncode == 2, run.stderr
-    assert says in run.stderr
+    assert expected in run.stderr
     assert len(run.stderr.strip().splitlines()) == 1
     assert not out.exists()
 
@@ -209,7 +209,7 @@ def test_stress_has_the_bulk_stress_unless_left_out(coated: fret.Result, tmp_pat
 
 
 @pytest.mark.parametrize(
-    ("arguments", "says"),
+    ("arguments", "expected"),
     [
         (("--of", "mises"), "one of s_xx"),
         (("--increment", "3"), "one whose fields were kept"),
@@ -219,14 +219,14 @@ def test_stress_has_the_bulk_stress_unless_left_out(coated: fret.Result, tmp_pat
     ],
 )
 def test_stress_that_is_not_there_is_refused(
-    coated: fret.Result, tmp_path: Path, arguments: tuple[str, ...], says: str
+    coated: fret.Result, tmp_path: Path, arguments: tuple[str, ...], expected: str
 ) -> None:
     store = tmp_path / "out.zarr"
     path = fret.LoadPath.start().normal(W, increments=4)
     fret.solve(coated.scene, path, save="branches", out=store, progress=False)
     run = fret_run("stress", store, "--depths", "3", *arguments)
     assert run.returncode == 2, run.stderr
-    assert says in run.stderr
+    assert expected in run.stderr
     assert len(run.stderr.strip().splitlines()) == 1
 
 
@@ -317,7 +317,7 @@ def test_few_planes_of_a_volume_leave_the_largest_value_as_it_is(
 
 
 @pytest.mark.parametrize(
-    ("arguments", "says"),
+    ("arguments", "expected"),
     [
         (("-o", "s.png"), "figures are drawn by pyfret.plot.stress_map"),
         (("--of", "interface_shear", "--body", "1"), "this body has no coating"),
@@ -325,13 +325,13 @@ def test_few_planes_of_a_volume_leave_the_largest_value_as_it_is(
     ],
 )
 def test_what_stress_cannot_do_it_refuses(
-    arguments: tuple[str, ...], says: str, coated: fret.Result, tmp_path: Path
+    arguments: tuple[str, ...], expected: str, coated: fret.Result, tmp_path: Path
 ) -> None:
     (tmp_path / "scene.toml").write_text(coated.scene.to_toml())
     fret_run("run", tmp_path / "scene.toml", "-o", tmp_path / "out.zarr", "--quiet")
     refused = fret_run("stress", tmp_path / "out.zarr", *arguments)
     assert refused.returncode == 2
-    assert says in refused.stderr
+    assert expected in refused.stderr
     assert not (tmp_path / "s.png").exists()
 
 

@@ -301,7 +301,7 @@ def test_the_command_reads_a_file(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("before", "after", "told"),
+    ("before", "after", "expected"),
     [
         ("mu = 0.4", "muu = 0.4", "nearest valid key is `mu`"),
         ("k = 1e-15", "kk = 1e-15", "nearest valid key is `k`"),
@@ -309,10 +309,10 @@ def test_the_command_reads_a_file(tmp_path: Path) -> None:
         ("thickness = 20e-6", "thickness = -1.0", "candidates.film"),
     ],
 )
-def test_a_wrong_file_says_where(tmp_path: Path, before: str, after: str, told: str) -> None:
+def test_a_wrong_file_says_where(tmp_path: Path, before: str, after: str, expected: str) -> None:
     scene, path = contact(n=8)
     (tmp_path / "scene.toml").write_text(scene.replace(path=path).to_toml())
     (tmp_path / "coatings.toml").write_text(FILE.replace(before, after))
     ran = command("coatings.toml", folder=tmp_path)
     assert ran.returncode == 2
-    assert told in ran.stderr
+    assert expected in ran.stderr

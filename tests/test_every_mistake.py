@@ -83,9 +83,9 @@ def test_all_mistakes_are_told_in_one_round(skipped: int) -> None:
         fret.Scene.from_toml(broken(mistakes))
     lines = str(refused.value).splitlines()
     assert len(lines) == len(mistakes), str(refused.value)
-    for line, (_, _, number, says) in zip(lines, mistakes, strict=True):
+    for line, (_, _, number, expected) in zip(lines, mistakes, strict=True):
         assert line.startswith(f"scene:{number}: "), line
-        assert says in line
+        assert expected in line
 
 
 @pytest.mark.parametrize("mistake", MISTAKES)
@@ -210,10 +210,10 @@ def test_json_has_numbers() -> None:
     assert set(units) == {name for name in numbers_of(answer) if not name.startswith("units")}
 
 
-def numbers_of(told: dict[str, object], within: str = "") -> set[str]:
+def numbers_of(numbers: dict[str, object], within: str = "") -> set[str]:
     """Names of the numbers of an answer, and of the lists of them."""
     names: set[str] = set()
-    for name, value in told.items():
+    for name, value in numbers.items():
         first = value[0] if isinstance(value, list) and value else value
         if isinstance(value, dict):
             names |= numbers_of(value, f"{within}{name}.")

@@ -111,6 +111,6 @@ def test_increments_that_the_path_has_not_are_not_kept(tmp_path: Path) -> None:
     scene = sphere_on_flat(n=8)
     path = fret.LoadPath.start().normal(W, increments=3)
     of_path = "1 to 3, the increments of the path"
-    for index, says in ((0, "a whole number >= 1"), (4, of_path), (99, of_path)):
-        with pytest.raises(fret.errors.InvalidSceneError, match=says):
+    for index, expected in ((0, "a whole number >= 1"), (4, of_path), (99, of_path)):
+        with pytest.raises(fret.errors.InvalidSceneError, match=expected):
             fret.solve(scene, path, save=[index], progress=False)

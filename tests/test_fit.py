@@ -125,7 +125,7 @@ def test_wear_and_debris_are_found_from_a_scar() -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "expected"),
     [
         ("1;2\n3;4\n", "must name the columns"),
         ("a [um];b [N]\n1;2;3\n", ":2: 3 numbers"),
@@ -135,10 +135,10 @@ def test_wear_and_debris_are_found_from_a_scar() -> None:
         ("a [um];b [N]\n1;2\n1;3\n", "turn twice"),
     ],
 )
-def test_files_that_are_no_loops_are_refused(tmp_path: Path, text: str, told: str) -> None:
+def test_files_that_are_no_loops_are_refused(tmp_path: Path, text: str, expected: str) -> None:
     file = tmp_path / "loop.csv"
     file.write_text(text, encoding="utf-8")
-    with pytest.raises(ValueError, match=told):
+    with pytest.raises(ValueError, match=expected):
         fret.fit.read_loops(file)
 
 

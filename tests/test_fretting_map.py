@@ -23,12 +23,12 @@ def test_a_material_of_ones_own_needs_its_sources() -> None:
     assert STEEL.number("s_D") == 400e6
     assert STEEL.title == "steel"
     assert pickle.loads(pickle.dumps(STEEL)) == STEEL
-    for numbers, says in (
+    for numbers, expected in (
         ([("s_D", 400e6, " ")], r"material `mine`\.s_D: has no source"),
         ([("s_D", -1.0, SOURCE)], r"`mine`\.s_D: -1: must be positive"),
         ([("sD", 1.0, SOURCE)], r"`mine`\.sD: unknown; nearest is s_"),
     ):
-        with pytest.raises(fret.errors.ArgumentError, match=says):
+        with pytest.raises(fret.errors.ArgumentError, match=expected):
             fatigue.Material("mine", numbers)
 
 

@@ -91,7 +91,7 @@ def test_what_a_law_raises_is_raised_as_it_is() -> None:
 
 
 @pytest.mark.parametrize(
-    ("gives", "error", "says"),
+    ("gives", "error", "expected"),
     [
         (np.nan, fret.errors.InvalidSceneError, "finite coefficient >= 0"),
         (-0.1, fret.errors.InvalidSceneError, r"friction.law = -0.1 at x = "),
@@ -101,8 +101,10 @@ def test_what_a_law_raises_is_raised_as_it_is() -> None:
         (1j, TypeError, "array of real numbers"),
     ],
 )
-def test_what_is_no_coefficient_is_refused(gives: Any, error: type[Exception], says: str) -> None:
-    with pytest.raises(error, match=says):
+def test_what_is_no_coefficient_is_refused(
+    gives: Any, error: type[Exception], expected: str
+) -> None:
+    with pytest.raises(error, match=expected):
         fret.solve(scene(lambda *_: gives), progress=False)
 
 

@@ -31,7 +31,7 @@ def test_variables_are_found_as_in_xarray(result: fret.Result) -> None:
 
 
 @pytest.mark.parametrize(
-    ("guess", "error", "says"),
+    ("guess", "error", "expected"),
     [
         (lambda r: r.p, AttributeError, r"field of every increment.*result.at\(-1\).p"),
         (lambda r: r.isel, AttributeError, r"result.dataset.isel"),
@@ -99,9 +99,9 @@ def test_what_is_not_there_is_told_with_what_is(
     result: fret.Result,
     guess: Callable[[fret.Result], object],
     error: type[Exception],
-    says: str,
+    expected: str,
 ) -> None:
-    with pytest.raises(error, match=says):
+    with pytest.raises(error, match=expected):
         guess(result)
     plt.close("all")
 
@@ -164,7 +164,7 @@ def test_a_copy_of_a_result_is_one(result: fret.Result, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("guess", "error", "says"),
+    ("guess", "error", "expected"),
     [
         (
             lambda: PRESSED.normal(-5.0),
@@ -211,9 +211,9 @@ def test_a_copy_of_a_result_is_one(result: fret.Result, tmp_path: Path) -> None:
     ],
 )
 def test_constructors_refuse_at_once(
-    guess: Callable[[], object], error: type[Exception], says: str
+    guess: Callable[[], object], error: type[Exception], expected: str
 ) -> None:
-    with pytest.raises(error, match=says):
+    with pytest.raises(error, match=expected):
         guess()
 
 

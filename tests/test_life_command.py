@@ -168,7 +168,7 @@ def test_lines_and_distance(store: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "says"),
+    ("arguments", "expected"),
     [
         ((), "--material = nothing: must be one of CrN"),
         (("--material", "stell"), "stell: must be one of CrN"),
@@ -181,8 +181,8 @@ def test_lines_and_distance(store: Path, tmp_path: Path) -> None:
         ),
     ],
 )
-def test_bad_input_is_one_sentence(arguments: tuple[str, ...], says: str, store: Path) -> None:
+def test_bad_input_is_one_sentence(arguments: tuple[str, ...], expected: str, store: Path) -> None:
     run = life(store, "--criterion", "crossland", *arguments)
     assert run.returncode == 2, run.stdout
-    assert says in run.stderr
+    assert expected in run.stderr
     assert len(run.stderr.strip().splitlines()) == 1

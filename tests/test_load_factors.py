@@ -195,9 +195,9 @@ def agree(kind: str, finest: int, grids: tuple[int, ...]) -> None:
         for layer in layers:
             for of in FACTORS:
                 least, truth = factors.least_of(layer, of), right.least_of(layer, of).value
-                off, told = abs(least.value - truth), f"{kind}, {n} cells, {of}: {least}, {truth}"
-                assert off < max(0.04 * truth, least.error), told
-                assert 1 / 1.5 < least.value / truth < 1.5, told
+                off, label = abs(least.value - truth), f"{kind}, {n} cells, {of}: {least}, {truth}"
+                assert off < max(0.04 * truth, least.error), label
+                assert 1 / 1.5 < least.value / truth < 1.5, label
         for of in criteria:
             life = result.life(materials, of)
             for layer in layers:

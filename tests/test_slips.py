@@ -28,7 +28,7 @@ PRESSED = fret.LoadPath.start().normal(W, increments=1)
 
 
 @pytest.mark.parametrize(
-    ("make", "says"),
+    ("make", "expected"),
     [
         (lambda: fret.Elastic(E=210e9, nu=0.6), r"nu = 0.6: must be -1 < nu <= 0.5"),
         (
@@ -46,13 +46,13 @@ PRESSED = fret.LoadPath.start().normal(W, increments=1)
         (lambda: fret.SurfaceMap([[0.0, math.inf]], spacing=1e-6), r"inf: must be a finite number"),
     ],
 )
-def test_a_constructor_refuses_at_once(make: Callable[[], object], says: str) -> None:
-    with pytest.raises(fret.errors.InvalidSceneError, match=says):
+def test_a_constructor_refuses_at_once(make: Callable[[], object], expected: str) -> None:
+    with pytest.raises(fret.errors.InvalidSceneError, match=expected):
         make()
 
 
 @pytest.mark.parametrize(
-    ("make", "says"),
+    ("make", "expected"),
     [
         (
             lambda: fret.Body(210e9),
@@ -95,9 +95,9 @@ def test_a_constructor_refuses_at_once(make: Callable[[], object], says: str) ->
     ],
 )
 def test_an_argument_of_another_type_is_named_with_an_example(
-    make: Callable[[], object], says: str
+    make: Callable[[], object], expected: str
 ) -> None:
-    with pytest.raises(TypeError, match=says):
+    with pytest.raises(TypeError, match=expected):
         make()
 
 
@@ -144,7 +144,7 @@ def test_heights_in_another_unit_are_refused() -> None:
 
 
 @pytest.mark.parametrize(
-    ("scene", "says"),
+    ("scene", "expected"),
     [
         (flat_of([fret.Coating(STEEL, thickness=3.0)]), r"thickness = 3.000e0 m is \d+ times"),
         (
@@ -157,10 +157,10 @@ def test_heights_in_another_unit_are_refused() -> None:
         ),
     ],
 )
-def test_what_is_hardly_meant_is_warned_of(scene: fret.Scene, says: str) -> None:
-    with pytest.warns(fret.errors.SceneWarning, match=says):
+def test_what_is_hardly_meant_is_warned_of(scene: fret.Scene, expected: str) -> None:
+    with pytest.warns(fret.errors.SceneWarning, match=expected):
         scene.check()
-    with pytest.warns(fret.errors.SceneWarning, match=says):
+    with pytest.warns(fret.errors.SceneWarning, match=expected):
         next(iter(fret.march(scene)))
 
 
@@ -184,10 +184,10 @@ def few_cells(cells: float) -> fret.Scene:
 
 def test_a_contact_of_a_cell_is_refused_with_the_cells_that_it_takes() -> None:
     for cells, n in ((0.3, 214), (0.9, 72)):
-        says = rf"grid.n = .* must be \[{n}, {n}\] or more, .* cells across its radius"
-        with pytest.raises(fret.errors.InvalidSceneError, match=says):
+        expected = rf"grid.n = .* must be \[{n}, {n}\] or more, .* cells across its radius"
+        with pytest.raises(fret.errors.InvalidSceneError, match=expected):
             few_cells(cells).check(PRESSED)
-        with pytest.raises(fret.errors.InvalidSceneError, match=says):
+        with pytest.raises(fret.errors.InvalidSceneError, match=expected):
             fret.solve(few_cells(cells), PRESSED, progress=False)
 
 
@@ -324,7 +324,7 @@ TEMPLATES = Path(__file__).parents[1] / "crates" / "fret-cli" / "templates"
 
 @pytest.mark.parametrize("of", ["sphere", "cylinder"])
 @pytest.mark.parametrize(
-    ("slip", "says"),
+    ("slip", "expected"),
     [
         ("body1.E=210", "a contact with a/R = 1"),
         ("body1.shape.{of}.R=50", "R = 50 m is large"),
@@ -332,7 +332,7 @@ TEMPLATES = Path(__file__).parents[1] / "crates" / "fret-cli" / "templates"
         ("grid.extent=1e-5", "The grid is 1.0000e-5 m"),
     ],
 )
-def test_slips_of_units_are_told_of_a_line_as_of_a_ball(of: str, slip: str, says: str) -> None:
+def test_slips_of_units_are_told_of_a_line_as_of_a_ball(of: str, slip: str, expected: str) -> None:
     name = {"sphere": "uncoated_ball", "cylinder": "cylinder"}[of]
     text = (TEMPLATES / f"{name}.toml").read_text()
     with warnings.catch_warnings(record=True) as doubts:
@@ -343,5 +343,5 @@ def test_slips_of_units_are_told_of_a_line_as_of_a_ball(of: str, slip: str, says
         except fret.errors.InvalidSceneError as refused:
             message = str(refused)
     message += " ".join(str(doubt.message) for doubt in doubts)
-    assert says in message
+    assert expected in message
     assert "approach" not in message

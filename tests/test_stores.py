@@ -73,16 +73,16 @@ def asks(version: int, what: str) -> Callable[[dict[str, Any]], None]:
 @pytest.mark.solves
 @pytest.mark.parametrize("name", ["run", "copy", "copy3", "study"])
 @pytest.mark.parametrize(
-    ("what", "told"), [("codec", "pickle"), ("object", "p_max"), ("size", "says that it has")]
+    ("what", "expected"), [("codec", "pickle"), ("object", "p_max"), ("size", "says that it has")]
 )
 def test_what_pyfret_does_not_write_is_refused(
-    sent: Path, tmp_path: Path, name: str, what: str, told: str
+    sent: Path, tmp_path: Path, name: str, what: str, expected: str
 ) -> None:
     store = tmp_path / f"{name}.zarr"
     shutil.copytree(sent / f"{name}.zarr", store)
     assert fret.open(store) is not None
     changed(store, asks(3 if name == "copy3" else 2, what))
-    with pytest.raises(fret.errors.StoreError, match=told):
+    with pytest.raises(fret.errors.StoreError, match=expected):
         fret.open(store)
 
 

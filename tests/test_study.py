@@ -69,8 +69,11 @@ def test_sensitivity_is_the_part_of_the_variance() -> None:
     np.testing.assert_allclose(parts.sel(parameter="a"), 0.0, atol=1e-12)
     np.testing.assert_allclose(parts.sel(parameter="b"), a.mean() ** 2 / (a**2).mean())
     holes = fret.study.Study(study.dataset.assign({"sum": sums.where(sums < 20.0)}))
-    for item, of_study, says in (("sum", holes, "have no sum"), ("none", study, "must be one of")):
-        with pytest.raises(ValueError, match=says):
+    for item, of_study, expected in (
+        ("sum", holes, "have no sum"),
+        ("none", study, "must be one of"),
+    ):
+        with pytest.raises(ValueError, match=expected):
             of_study.sensitivity(item)
 
 
@@ -463,7 +466,7 @@ def test_a_store_of_another_friction_law_is_another_study(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize(
-    ("parameters", "told"),
+    ("parameters", "expected"),
     [
         ({"path.0.W": [10.0], "path[0].W": [9.0]}, "set path.0.W twice"),
         ({"mu": {0.2, 0.3}}, "must be a list"),
@@ -474,9 +477,9 @@ def test_a_store_of_another_friction_law_is_another_study(tmp_path: Path) -> Non
     ],
 )
 def test_values_of_parameters_come_through_the_door(
-    parameters: dict[str, object], told: str
+    parameters: dict[str, object], expected: str
 ) -> None:
-    with pytest.raises((ValueError, TypeError), match=told):
+    with pytest.raises((ValueError, TypeError), match=expected):
         Design.from_values(parameters, "grid").check(SCENE)
 
 

@@ -16,7 +16,7 @@ from pyfret.study import compare_file, file
     [(file.run_study_file, "parameters"), (compare_file.run_compare_file, "candidates")],
 )
 @pytest.mark.parametrize(
-    ("text", "says"),
+    ("text", "expected"),
     [
         ("scene = ]\n", "line 1"),
         ("scene = 5\n[{table}]\n", "`scene` = 5: must be the name of a file in quotes"),
@@ -27,11 +27,11 @@ from pyfret.study import compare_file, file
     ],
 )
 def test_what_a_file_may_say(
-    run: Callable[[Path], Any], table: str, text: str, says: str, tmp_path: Path
+    run: Callable[[Path], Any], table: str, text: str, expected: str, tmp_path: Path
 ) -> None:
     path = tmp_path / "file.toml"
     path.write_text(text.format(table=table))
     with pytest.raises(ValueError) as refused:  # noqa: PT011
         run(path)
-    assert says.format(table=table) in str(refused.value)
+    assert expected.format(table=table) in str(refused.value)
     assert str(path) in str(refused.value)

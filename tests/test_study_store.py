@@ -83,9 +83,9 @@ def test_every_damage_is_named_or_harmless(whole: Path, tmp_path: Path) -> None:
                 )
             try:
                 computed = fret.open(path).dataset.load()
-            except StoreError as told:
-                if "copy.zarr" not in str(told):
-                    wrong.append(f"{name} {kind}: {told}")
+            except StoreError as error:
+                if "copy.zarr" not in str(error):
+                    wrong.append(f"{name} {kind}: {error}")
             except Exception as raw:
                 wrong.append(f"{name} {kind}: {type(raw).__name__} {raw}")
             else:

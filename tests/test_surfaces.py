@@ -48,10 +48,10 @@ def test_holes_are_named_cut_off_or_filled(tmp_path: Path) -> None:
     holed = HEIGHTS.copy()
     holed[0, :] = np.nan
     np.save(file, holed)
-    says = (
+    expected = (
         r"3 of 12 points have no number, the first in row 1 and column 1, all within 1 of the edges"
     )
-    with pytest.raises(fret.errors.StoreError, match=says):
+    with pytest.raises(fret.errors.StoreError, match=expected):
         fret.SurfaceMap.from_file(file, spacing=1e-6)
     with pytest.raises(fret.errors.InvalidSceneError, match="3 of 12 points have no number"):
         fret.SurfaceMap(holed, spacing=1e-6)

@@ -110,8 +110,10 @@ def test_compiled_parameters_that_take_a_unit_are_typed_so(monkeypatch: pytest.M
     asked, wrong = 0, []
     for name, call in public.public():
         found = public.good(name, call) if name not in public.LEFT_OUT else None
-        told = call.__qualname__ if not inspect.isclass(call) else f"{call.__qualname__}.__new__"
-        if found is None or not is_compiled(call) or told.startswith("Criterion."):
+        qualified = (
+            call.__qualname__ if not inspect.isclass(call) else f"{call.__qualname__}.__new__"
+        )
+        if found is None or not is_compiled(call) or qualified.startswith("Criterion."):
             continue
         try:
             public.invoked(call, found[0])
@@ -131,9 +133,11 @@ def test_compiled_parameters_that_take_a_unit_are_typed_so(monkeypatch: pytest.M
                     continue
                 taken = False
             asked += 1
-            names = set(re.findall(r"\w+", annotation_in_stub(told, key)))
+            names = set(re.findall(r"\w+", annotation_in_stub(qualified, key)))
             if taken != bool(names & TAKES):
-                wrong.append(f"{told}({key}: {annotation_in_stub(told, key)}): taken: {taken}")
+                wrong.append(
+                    f"{qualified}({key}: {annotation_in_stub(qualified, key)}): taken: {taken}"
+                )
     assert asked > 60
     assert wrong == []
 

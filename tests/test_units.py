@@ -125,7 +125,7 @@ def test_types_of_quantities_are_the_rows_of_the_table() -> None:
 
 
 @pytest.mark.parametrize(
-    ("head", "units", "told"),
+    ("head", "units", "expected"),
     [
         ("delta;T", {}, "no column with a unit"),
         ("delta [N];T [N]", {}, "no column with a unit of length"),
@@ -136,11 +136,11 @@ def test_types_of_quantities_are_the_rows_of_the_table() -> None:
     ],
 )
 def test_units_of_columns_are_asked_for(
-    tmp_path: Path, head: str, units: dict[str, str], told: str
+    tmp_path: Path, head: str, units: dict[str, str], expected: str
 ) -> None:
     table = tmp_path / "loop.csv"
     table.write_text(f"{head}\n0;0\n1;4\n0;-4\n-1;-5\n0;4\n1;5\n")
-    with pytest.raises(ValueError, match=told):
+    with pytest.raises(ValueError, match=expected):
         fret.fit.read_loops(table, units=units)
 
 

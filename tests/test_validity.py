@@ -39,8 +39,8 @@ def test_conformal_contacts_are_refused_or_doubted_by_the_body(
 ) -> None:
     line = shape is fret.Cylinder
     scene = pressed(shape(0.010), shape(-0.0102), 0.01985, STEEL, line=line)
-    says = r"a/R = 1\.9.*body1 0\.01 m, in a conformal"
-    with pytest.raises(InvalidSceneError, match=says):
+    expected = r"a/R = 1\.9.*body1 0\.01 m, in a conformal"
+    with pytest.raises(InvalidSceneError, match=expected):
         fret.solve(scene, progress=False)
     scene = pressed(shape(0.010), shape(-0.0102), 0.002, STEEL, line=line)
     with pytest.warns(SceneWarning, match=r"a/R = 0\.20.*conformal contact with body2"):

@@ -96,7 +96,7 @@ def test_bad_input_is_refused_by_name() -> None:
 
 
 @pytest.mark.parametrize(
-    ("options", "told"),
+    ("options", "expected"),
     [
         ({"cycling": "slide"}, r'cycling = "slide": must be "auto" or "march" or "sliding"'),
         ({"worn_through": "on"}, r'worn_through = "on": must be "stop" or "go_on"'),
@@ -106,9 +106,9 @@ def test_bad_input_is_refused_by_name() -> None:
         ({"share1": 0.5}, r"share1 = 0.5: must come with a law, body1"),
     ],
 )
-def test_options_are_refused_by_name(options: dict[str, Any], told: str) -> None:
+def test_options_are_refused_by_name(options: dict[str, Any], expected: str) -> None:
     wears: dict[str, Any] = {"cycles": 10, "first_branch": 2, "body2": fret.wear.Archard(1e-14)}
-    with pytest.raises(ValueError, match=told):
+    with pytest.raises(ValueError, match=expected):
         fret.wear.solve(line(), progress=False, **{**wears, **options})
 
 

@@ -149,7 +149,7 @@ def campaign(
 RIGHT = ("solved", "off grid", "refused", "beyond friction")
 
 
-def told(outcomes: list[dict[str, object]]) -> tuple[list[str], bool]:
+def summarise(outcomes: list[dict[str, object]]) -> tuple[list[str], bool]:
     """Summarise the outcomes in lines; return them and whether all are right."""
     fates = Counter(str(item["fate"]) for item in outcomes)
     lines = [f"{n:6d} {fate}" for fate, n in fates.most_common()]
@@ -183,6 +183,6 @@ if __name__ == "__main__":
             outcomes.append(outcome)
             if "--json" in sys.argv:
                 print(json.dumps(outcome), flush=True)
-        lines, right = told(outcomes)
+        lines, right = summarise(outcomes)
         print("\n".join(lines))
         sys.exit(not right)
