@@ -28,7 +28,7 @@ RADII, DEPTHS, LEAST = np.linspace(0.0, 6.0, 601), 33, 0.03
 
 @dataclass(frozen=True)
 class Layer:
-    """Elastic constants [Pa, -] and thickness [m]; that of the last is infinite."""
+    """Elastic constants [Pa, -] and thickness [m]; the last layer is infinite."""
 
     E: float
     nu: float

@@ -70,7 +70,7 @@ class Compared:
         """Note the energy balance of a cycle under a constant W, beside 1 % of what is lost.
 
         Loop and W d(delta_z) are friction, plastic work and the growth of the elastic energy;
-        that of the residual stress settles with the cycles.
+        the error of the residual stress settles with the cycles.
         """
         loop = float(np.trapezoid(of["T_x"][cycle], of["delta_x"][cycle]))
         inside = slice(cycle.start + 1, cycle.stop)
@@ -171,7 +171,7 @@ def indented(
     on_axis = [at(strain, z) for z in depths]
     compared.table("p", on_axis, state["plastic_strain_on_axis"], 0.03 * largest)
     remaining = state["unloaded"]
-    if isinstance(remaining, str):  # the row says why it has none
+    if isinstance(remaining, str):  # the row holds the reason instead
         return compared
     options = {axis: remaining[f"s_{axis}_on_axis"] for axis in ("rr", "zz")}
     upper = max(abs(value) for table in options.values() for value in table["value"])
@@ -270,7 +270,7 @@ def fretted(row: dict[str, Any], *, n: int = 48, room: float = 1.3, **changes: A
         )
         compared.see(name, worst[0], 0.0, worst[1])
     columns = {n: result.dataset[n].to_numpy() for n in ("T_x", "delta_x", *ENERGIES)}
-    # The trapezoidal rule of the loop, of eight increments a stroke, leaves 2 %: it is told.
+    # The trapezoidal rule of the loop, of eight increments a stroke, leaves 2 %, which is printed.
     columns["elastic"] = columns["elastic"] - result.dataset.quadrature.to_numpy()
     for k, start in enumerate((9, 17)):
         compared.balance(f"energy[{k}]", columns, row["W"], slice(start, start + 17))

@@ -21,7 +21,7 @@ import pyfret as fret
 from pyfret import plot
 from test_figures import SCENES
 
-#: Cells a side, so that a picture is that of a real run.
+#: Cells a side, so that a picture shows a real run.
 CELLS = 48
 #: Pixels of a sheet's width, and about a figure.
 WIDTH, GAP = 2400, 12

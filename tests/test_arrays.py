@@ -171,7 +171,7 @@ def test_a_table_of_wear_is_pairs_of_numbers() -> None:
 
 
 class Liar(list[Any]):
-    """A list that says that it is very long."""
+    """A list whose length claims to be very large."""
 
     def __len__(self) -> int:
         return 1 << 60

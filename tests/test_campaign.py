@@ -76,7 +76,7 @@ def test_scenes_of_everything_are_solved_or_rightly_refused() -> None:
 
 @pytest.mark.slow
 def test_what_follows_from_random_contacts_is_found_or_refused_for_a_reason() -> None:
-    """A slice of `make whole`: bonds, laws of one's own, heat, cracks, wear with debris."""
+    """A slice of `make whole`: bonds, laws of the user, heat, cracks, wear with debris."""
     outcomes = list(campaign(0, 24, whole=True))
     lines, right = summarise(outcomes)
     assert right, "\n".join(lines)

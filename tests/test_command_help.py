@@ -1,4 +1,4 @@
-"""Help, errors and exit codes of the commands in Python are those of the compiled ones."""
+"""Commands in Python have the help, errors and exit codes of the compiled commands."""
 
 from __future__ import annotations
 

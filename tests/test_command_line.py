@@ -73,7 +73,7 @@ def test_what_is_there_is_not_overwritten(scene_file: Path, tmp_path: Path) -> N
 
 
 def test_tables_have_no_digits_of_rounding(tmp_path: Path) -> None:
-    """Alike bodies under a force along y: along x nothing moves, but for rounding."""
+    """Alike bodies under a force along y: along x nothing moves, up to rounding."""
     scene = sphere_on_flat(n=16).replace(
         path=fret.LoadPath.start().normal(W, increments=2).cycles(1, T_y=150.0, increments=4)
     )

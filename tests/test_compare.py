@@ -1,4 +1,4 @@
-"""Bodies side by side: the numbers are those of single runs, errors decide what differs."""
+"""Bodies side by side: the numbers equal single runs, errors decide what differs."""
 
 from __future__ import annotations
 

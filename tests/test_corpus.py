@@ -1,6 +1,6 @@
 """Every reader on files as other programs write them, and on what is no file.
 
-`tests/data/files/README.md` says which program each form is of.
+`tests/data/files/README.md` lists the program of each form.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ HEIGHTS = np.round(0.1 * X + 0.05 * Y**2 + 0.3 * ((X == 0) & (Y == 2)), 3)
 #: All public readers of files, by name; each gets a path and gives what it reads.
 READERS: dict[str, Callable[[Path], Any]] = {
     "surface": lambda path: fret.read_surface(path, unit="um", spacing=(1e-6, 1.5e-6)),
-    "surface that says all": lambda path: fret.read_surface(path),
+    "surface with units": lambda path: fret.read_surface(path),
     "surface in um": lambda path: fret.read_surface(path, unit="um"),
     "SurfaceMap": lambda path: fret.SurfaceMap.from_file(path, unit="um"),
     "loops": fret.fit.read_loops,
@@ -101,9 +101,9 @@ RIGHT: dict[str, dict[str, Callable[[Any], bool]]] = {
     "surface_pandas_numbers.csv": {"surface": on_their_grid},
     "surface_r.txt": {"surface": on_their_grid},
     "surface_excel.csv": {"surface": on_their_grid},
-    "surface_gwyddion.txt": {"surface that says all": on_their_grid},
-    "surface_iso.sdf": {"surface that says all": on_their_grid},
-    "surface_bcr.sdf": {"surface that says all": on_their_grid},
+    "surface_gwyddion.txt": {"surface with units": on_their_grid},
+    "surface_iso.sdf": {"surface with units": on_their_grid},
+    "surface_bcr.sdf": {"surface with units": on_their_grid},
     **{
         f"loops_{name}": {"loops": looped}
         for name in ("plain.csv", "logger.txt", "labview.lvm", "mts.dat")
@@ -146,7 +146,7 @@ REFUSED = {
 }
 CURVES = frozenset(("indentation", "loops from line 3"))
 #: Tables of numbers that more than one reader may take: heights, lives and loops look alike.
-TABLES = frozenset(("surface", "surface in um", "surface that says all", "SurfaceMap", "lives"))
+TABLES = frozenset(("surface", "surface in um", "surface with units", "SurfaceMap", "lives"))
 
 
 @pytest.mark.solves
@@ -201,7 +201,7 @@ for path in sys.argv[1:]:
         else:
             print("READ", name, path, flush=True)
 """
-#: Endings by which readers tell what a file is.
+#: Endings by which readers recognise a file.
 ENDINGS = ("", ".csv")
 
 

@@ -82,7 +82,7 @@ def test_cracks_are_values() -> None:
 def test_the_worse_rim_is_the_trailing_one_and_short_cracks_stop(rig: fret.Result) -> None:
     cracks = rig.crack()
     assert abs(abs(cracks.dataset.attrs["x"]) / rig.a_H - 1.0) < 0.05
-    # The force goes to and fro: both rims are trailing ones, the range is that of either.
+    # The force goes to and fro: both rims are trailing ones, each rim gives the range.
     mirrored = rig.crack(-cracks.dataset.attrs["x"], lengths=cracks.lengths)
     assert mirrored.dK() == pytest.approx(cracks.dK(), rel=0.05)
     dK = cracks.dK()
@@ -331,7 +331,7 @@ def test_bulk_stress_moves_the_line_of_arrest_in_the_running_map(rig: fret.Resul
     np.testing.assert_allclose(
         item.arrest_margin, table.arrest_margin.sel(sigma_B=2e8).transpose(*item.arrest_margin.dims)
     )
-    # A point is that of the map of shear and bulk stress.
+    # A point equals the map of shear and bulk stress.
     chart = fret.study.arrest_map(
         scene, W=2e5, T=[8e4], sigma_B=[2e8], arrest=arrest, increments=(2, 8), executor=1
     )

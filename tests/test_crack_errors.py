@@ -137,7 +137,7 @@ def test_a_crack_without_errors_has_none() -> None:
 def test_the_first_to_fail_has_the_margin_of_the_same_cracks(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """One question has one number, and the line says which lengths it is the least of."""
+    """One question has one number, and the line names the lengths of which it is the least."""
     # The lengths of cracks by default are many.
     monkeypatch.setattr(sys.modules["pyfret.fracture.below"], "LENGTHS", 4)
     steel = fret.Elastic(E=210e9, nu=0.3)

@@ -1,4 +1,4 @@
-"""Ctrl-C in long calls that solve nothing: it is heard, soon, and what was begun leaves nothing."""
+"""Ctrl-C in long calls that solve nothing: they end soon and leave no files."""
 
 from __future__ import annotations
 

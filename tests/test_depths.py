@@ -1,4 +1,4 @@
-"""Depths chosen from the layers find the largest stress, and say how well."""
+"""Depths chosen from the layers find the largest stress and its error."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from conftest import R, W, sphere_on_flat
 
 STEEL = fret.Elastic(E=210e9, nu=0.3)
 HERTZ = fret.reference.hertz(R=R, bodies=(STEEL, STEEL), W=W)
-#: Random contacts (FRET_DEPTHS says how many), and largest difference to ten times the depths.
+#: Random contacts (as many as FRET_DEPTHS), and largest difference to ten times the depths.
 CONTACTS, OFF = int(os.environ.get("FRET_DEPTHS", "4")), 0.02
 
 

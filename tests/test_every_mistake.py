@@ -1,4 +1,4 @@
-"""Every mistake of a scene is told at once, with its line, and quantities come with their units."""
+"""Every mistake of a scene is listed at once, with its line, and quantities have their units."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ T_x = 1.0
 increments = 4
 """
 
-#: What is written, what is meant to stand there, its line and what is told of it.
+#: The wrong text, the right text, its line and the message.
 MISTAKES = [
     ("schema = 1\n", "\n", 1, "schema is missing"),
     ("E = 210e9\nnu = 0.3\n\n[body2]", "E = 210e9\nnu = 0.6\n\n[body2]", 7, "body1.nu = 0.6"),

@@ -122,7 +122,7 @@ def test_every_figure_is_drawn(result: fret.Result, units: fret.plot.Units) -> N
         fret.plot.stress_history(envelope, units=units),
         fret.plot.loop_evolution(result),
     ]
-    # A figure without a curve says why.
+    # A figure without a curve shows the reason.
     assert all(ax.has_data() or ax.images or ax.texts for ax in figures)
     if units == "SI":
         for ax in figures:
@@ -150,7 +150,7 @@ def test_a_summary_has_no_digits_of_rounding() -> None:
     end = len("  t ") + titles.index("delta_x") + len("delta_x")
     assert len(rows) == 4
     assert all(row[:end].split()[-1] == "0" for row in rows)
-    # What is given is told as it is, however small.
+    # A given number is printed as it is, however small.
     tiny = scene(fret.Sphere(R), PRESSED.tangential(1e-5, increments=1))
     assert " 1e-05 " in fret.solve(tiny, progress=False).summary()
 

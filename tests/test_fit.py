@@ -207,7 +207,7 @@ def test_the_posterior_is_that_of_the_confidence_where_the_model_is_linear() -> 
         assert low < value < high
         unknown = fitted.known[key]
         assert abs(unknown.value - np.median(posterior.samples[key])) < 0.2 * (high - low)
-        # Both without what the solver leaves.
+        # Both without the error of the solver.
         assert (high - low) == pytest.approx(2 * unknown.noise, rel=0.15)
     assert "95 % of the posterior" in fitted.summary()
     again = [np.corrcoef(*posterior.samples.values())[0, 1], fitted.correlation[0, 1]]

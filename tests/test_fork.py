@@ -24,7 +24,7 @@ PATH = fret.LoadPath.start().normal(W, increments=2).tangential(50.0, increments
 
 
 def in_a_copy(work: Callable[[], bool]) -> int:
-    """The exit code of a copy of this process: 0 if `work` says yes, 9 if it hangs."""
+    """The exit code of a copy of this process: 0 if `work` returns true, 9 if it hangs."""
     child = os.fork()
     if child == 0:
         try:

@@ -1,4 +1,4 @@
-"""Friction as a function of one's own: what it gets, what becomes of its errors, resuming."""
+"""Friction as a function of the user: its arguments, its errors, resuming."""
 
 from __future__ import annotations
 

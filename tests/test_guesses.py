@@ -1,4 +1,4 @@
-"""Guesses of a user of matplotlib and xarray are served, or told the right name."""
+"""Guesses of a user of matplotlib and xarray work, or the error has the right name."""
 
 from __future__ import annotations
 
@@ -139,7 +139,7 @@ def test_what_a_dataset_says_of_itself_is_an_attribute(monkeypatch: pytest.Monke
 
 
 def has(one: object, name: str) -> bool:
-    """Whether a thing has an attribute, or says that this one of them has none."""
+    """Whether a thing has an attribute, or refuses it for this case by a reason."""
     try:
         getattr(one, name)
     except AttributeError:

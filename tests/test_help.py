@@ -1,4 +1,4 @@
-"""Everything public says what it is, in Python and in the stub."""
+"""Everything public has a docstring, in Python and in the stub."""
 
 from __future__ import annotations
 

@@ -98,6 +98,6 @@ def test_a_value_of_a_wrong_class_is_refused_with_the_name_of_its_argument() -> 
 
 @pytest.mark.timeout(36_000)
 def test_random_hostile_calls_of_all_public_callables() -> None:
-    """Under 8 GB of address space; ``FRET_HOSTILE`` says how many (``make fuzz``: 20 000)."""
+    """Under 8 GB of address space; as many as ``FRET_HOSTILE`` (``make fuzz``: 20 000)."""
     wrong = wrong_of(os.environ.get("FRET_HOSTILE", "400"))
     assert not wrong, "\n".join(wrong)

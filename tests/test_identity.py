@@ -107,7 +107,7 @@ def test_a_function_is_told_by_what_it_does() -> None:
 
 
 def test_what_cannot_be_told_needs_a_version() -> None:
-    """An open file, a lock: nothing says whether they have changed."""
+    """An open file, a lock: a change of them cannot be detected."""
     with Path(__file__).open(encoding="utf-8") as file:
 
         def lines(result: Any) -> float:

@@ -122,7 +122,7 @@ def test_buckling_is_that_of_a_clamped_plate_by_finite_differences() -> None:
     narrow = fracture.buckling_release(COATING, -s, half_width=5e-6)
     assert (narrow.deflection, narrow.release) == (0.0, 0.0)
     assert fracture.buckling_release(COATING, s, half_width=5e-4).release == 0.0
-    with pytest.raises(ValueError, match=r"half_width = 0.*half of that of the strip"):
+    with pytest.raises(ValueError, match=r"half_width = 0.*half of the strip"):
         fracture.buckling_release(COATING, -s, half_width=0.0)
     with pytest.raises(TypeError, match="half_width"):
         fracture.buckling_release(COATING, -s, width=1e-5)  # type: ignore[call-arg]
@@ -136,7 +136,7 @@ def test_thermal_stress_keeps_the_coating_as_wide_as_its_substrate() -> None:
         s = subsurface.thermal_stress(
             COATING.material, alpha_coating=a_c, alpha_substrate=a_s, temperature_change=dT
         )
-        # Free expansion and Hooke's law in both directions: the strain is that of the substrate.
+        # Free expansion and Hooke's law in both directions: both strain as the substrate.
         assert a_c * dT + (s - nu * s) / E == pytest.approx(a_s * dT, rel=1e-12)
     cooled = subsurface.thermal_stress(
         COATING.material, alpha_coating=a_c, alpha_substrate=a_s, temperature_change=-400.0
@@ -214,7 +214,7 @@ def test_residual_stress_is_part_of_envelopes_and_volumes(tmp_path: Path) -> Non
     now.write_volume(tmp_path / "pressed.zarr", depths, of=item, residual=given_values)
     stored = xr.open_zarr(tmp_path / "pressed.zarr", chunks=None)
     planes = now.stress(depths, residual=given_values)
-    # Of the two values on the interface the volume has that of the coating.
+    # Of the two values on the interface the volume has the one of the coating.
     for name in item:
         np.testing.assert_allclose(stored[name], planes.measure(name)[:2], rtol=1e-9, atol=1.0)
     with pytest.raises(ValueError, match="one for each of the 2 layers"):

@@ -27,7 +27,7 @@ def test_a_threshold_is_that_of_a_material(given: Any) -> None:
     assert fret.study.Arrest(given).threshold == right
     assert fret.study.FirstToFail(threshold=given).threshold == right
     assert plot.crack_arrest(CRACKS, given).lines
-    # The law of growth is that of the same material, or the one that is given.
+    # The law of growth belongs to the same material, or is the given one.
     law = fracture.Paris.from_material(ALLOY)
     assert CRACKS.life(given) == CRACKS.life(right, law) == CRACKS.life(given, "7075")
     assert CRACKS.life(given, fracture.Paris(1e-12, 3.0)).cycles != CRACKS.life(given).cycles

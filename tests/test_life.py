@@ -127,7 +127,7 @@ def test_each_layer_with_its_own_material(cycled: fret.Result) -> None:
         only.worst_of(0)
     with pytest.raises(ValueError, match="1 materials: must be one, or one for each"):
         cycled.life([STEEL], "crossland")
-    # One material is that of the substrate and says nothing about a coating.
+    # One material is the substrate's and does not judge a coating.
     alone = cycled.life(STEEL, "crossland", [0.0, 2e-4, 7e-4])
     np.testing.assert_array_equal(alone.dataset.value, only.dataset.value)
     with pytest.raises(ValueError, match=r"no depth lies .* .the substrate begins at 0.00048"):

@@ -1,4 +1,4 @@
-"""`fret life`: what it says is what Python finds."""
+"""`fret life` prints the numbers that Python returns."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ def test_rows_are_what_python_finds(store: Path, tmp_path: Path) -> None:
     assert [row["layer"] for row in rows] == [0, 1]
     for row in rows:
         mask = computed.dataset.isel(depth=computed.dataset.layer.values == row["layer"])
-        # No point of the section is worse, and the value is that of the margin.
+        # No point of the section is worse, and the value is the margin's.
         assert row["value"] >= float(mask.value.max()) * (1 - 1e-9)
         assert row["safety_factor"] == pytest.approx(
             STEEL.assessment("findley").safety_factor(row["value"]), rel=1e-9
@@ -118,7 +118,7 @@ def test_rows_are_what_python_finds(store: Path, tmp_path: Path) -> None:
             [arguments.low, arguments.best, arguments.high, arguments.L], rel=1e-9
         )
         assert row["notes"][: len(arguments.notes)] == list(arguments.notes)
-        # The range at the point has the scatter of the material, as that of the mean.
+        # The range at the point has the scatter of the material, as the range of the mean has.
         worst = computed.worst_of(row["layer"])
         assert row["at_point"] == pytest.approx(list(worst.whole), rel=1e-9)
         assert worst.whole[1] / worst.whole[0] > arguments.material
@@ -152,7 +152,7 @@ def test_lines_and_distance(store: Path, tmp_path: Path) -> None:
     own_values = ("--materials", tmp_path / "mine.toml", "--criterion", "dang_van")
     run = life(store, *own_values)
     assert run.returncode == 0, run.stderr
-    # One material is that of the substrate.
+    # One material is the substrate's.
     assert run.stdout.startswith("the substrate: safety factor")
     assert ", the least of this body at a point, limited by dang_van = " in run.stdout
     pair = ("--material", "mine,mine")

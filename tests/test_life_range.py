@@ -103,7 +103,7 @@ def test_the_range_of_the_stress_is_that_of_the_mean_and_covers(life: fatigue.Li
     alloy = fatigue.Materials()["7075"]
     finer = life.range.stress
     L = fatigue.critical_distance(alloy)
-    # On few cells the mean is off by less than is told, and told far better than the worst point.
+    # On few cells the mean is off by less than its error, which is smaller than the worst point's.
     coarse = rig(32)
     computed = coarse.life(alloy, "smith_watson_topper")
     ranges = computed.range.stress
@@ -276,7 +276,7 @@ def test_published_lives_lie_in_their_ranges(coating: str, failed: float) -> Non
     rows = experiments.table(f"fouvry2007_{coating.lower()}_lives")
     inside = []
     for row in rows:
-        # The life goes with the energy of a cycle, that of the test.
+        # The life goes with the energy of a cycle, which is taken from the test.
         scale = energy / (row["mean_energy_density_J_per_m2_cycle"] * area)
         lived = row["cycles_to_failure"]
         inside.append(scale * range_found.low <= lived <= scale * range_found.high)
@@ -307,7 +307,7 @@ def test_published_lives_of_a_solid_lubricant_lie_in_their_ranges() -> None:
     range_found = worn.range_of_cycles(energy=capacity * 2 * a)
     assert range_found.best == pytest.approx(capacity * 2 * a / (4 * mu * W * slip), rel=0.01)
     assert range_found.factor < 10.0
-    # The life goes with the energy of a cycle, that of the test.
+    # The life goes with the energy of a cycle, which is taken from the test.
     scale = 4 * mu * W * slip / (2 * a) / density[3:]
     inside = (scale * range_found.low <= lived[3:]) & (lived[3:] <= scale * range_found.high)
     assert inside.sum() >= 0.8 * inside.size
@@ -342,7 +342,7 @@ def test_a_threshold_has_the_range_of_its_margin() -> None:
         tolerance=0.05,
     )
     assert threshold_load.low < threshold_load.value < threshold_load.high
-    # The measured threshold lies within it; the range is that of strengths, not of lives.
+    # The measured threshold lies within it; the range is one of strengths, not of lives.
     assert threshold_load.low <= 2.73e5 <= threshold_load.high
     assert threshold_load.high / threshold_load.low < 2.0
 

@@ -180,7 +180,7 @@ def fretted(kind: str, n: int) -> fret.Result:
 
 
 def agree(kind: str, finest: int, grids: tuple[int, ...]) -> None:
-    """Factors and lives of all layers on some grids lie within what is told of the finest's."""
+    """Factors and lives of all layers on some grids lie within their errors of the finest grid."""
     titanium = fatigue.Materials()["titanium_6Al4V"]
     layers = [0, 1] if kind.endswith("coated") else [0]
     criteria = ("smith_watson_topper", "fatemi_socie")

@@ -1,4 +1,4 @@
-"""Stiffness right after a reversal and sliding ratio: known to what is told, or not given."""
+"""Stiffness right after a reversal and sliding ratio: known to their errors, or not given."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ from pyfret.errors import SceneWarning, StoreError
 RNG = np.random.default_rng(7)
 HEIGHTS = 1e-6 * RNG.integers(-999, 999, (5, 4)) / 1000
 ENCODINGS = ("utf-8", "utf-8-sig", "utf-16", "utf-16-be", "latin-1")
-#: Partings and decimal signs that tell apart.
+#: Separators and decimal signs that differ from each other.
 STYLES = ((",", "."), (";", "."), (";", ","), ("\t", "."), ("\t", ","), (" ", "."), ("  ", ","))
 
 

@@ -137,6 +137,6 @@ def test_a_figure_is_the_picture_that_was_looked_at(
         drawn(right, coated, picture)
     now = drawn(right, coated, tmp_path / "now.png")
     assert compare_images(str(picture), str(now), tol=ALIKE) is None
-    # The tolerance tells a wrong figure.
+    # A wrong figure exceeds the tolerance.
     alternative = drawn(wrong, coated, tmp_path / "wrong.png")
     assert compare_images(str(picture), str(alternative), tol=ALIKE) is not None

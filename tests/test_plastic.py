@@ -175,7 +175,7 @@ def test_tractions_alone_do_not_say_what_has_yielded() -> None:
 
 
 def test_stress_of_bodies_that_have_not_yielded_has_the_bits_of_elastic_ones() -> None:
-    """Below the surface as on it; the summary says how far they are from it."""
+    """Below the surface as on it; the summary prints the distance to it."""
     hard = fret.Elastic(E=210e9, nu=0.3, plastic=fret.Plastic(s_y=5e9))
     elastic = fret.solve(indentation(fret.Elastic(E=210e9, nu=0.3)), progress=False)
     solved = fret.solve(indentation(hard), progress=False)
@@ -312,7 +312,7 @@ def test_figures_of_what_has_yielded(tmp_path: Path) -> None:
 
 
 def test_a_material_of_the_table_yields_only_when_asked() -> None:
-    """Its yield stress is that of the table; a material without one is refused."""
+    """Its yield stress stands in the table; a material without one is refused."""
     assert fret.material("titanium_6Al4V").plastic is None
     alloy = fret.material("titanium_6Al4V", plastic=True)
     assert alloy.plastic == fret.Plastic(s_y=1185e6)

@@ -38,7 +38,7 @@ def drawn(seed: int) -> fret.Scene:
     nu = rng.uniform(0.1, 0.4)
     R = 10 ** rng.uniform(-3, -1)
     upper = fret.Elastic(E=E * rng.choice([1.0, 3.0]), nu=nu)
-    # Largest pressure over that of first yield, of the uncoated bodies.
+    # Largest pressure over the pressure at first yield, of the uncoated bodies.
     p_0 = 1.65 * s_y * rng.uniform(0.8, 1.8)
     modulus = 1 / ((1 - nu**2) / upper.E + (1 - nu**2) / E)
     a = (2 if line else np.pi / 2) * p_0 * R / modulus
@@ -156,8 +156,8 @@ def test_a_random_contact_holds_what_holds_for_all(seed: int) -> None:
             assert (q <= scene.friction.mu * p * (1 + 1e-6)).all()
         assert abs(float(increment.residual_energy)) < 1e-4
         assert float(increment.plastic_work) >= 0.0
-        # The energy that is kept, that of the residual stress included, is part of the work done.
-        # The work is that of the mean force over each of a few increments: half a percent off.
+        # The kept energy, with the residual stress included, is part of the work done.
+        # The work takes the mean force over each of a few increments: half a percent off.
         work, kept = work + float(increment.work), kept + float(increment.elastic)
         moved += abs(float(increment.work))
         assert 0.0 < kept <= work + 5e-3 * moved

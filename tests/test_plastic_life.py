@@ -50,7 +50,7 @@ def alternating(*, upper: bool = False) -> fret.Result:
 
 
 def test_the_life_of_a_contact_that_goes_on_yielding_has_the_plastic_strain(tmp_path: Path) -> None:
-    """The value is that of the total strain, in Python and on the command line."""
+    """The value follows from the total strain, in Python and on the command line."""
     result = alternating()
     assert result.cyclic_response().kind == "alternates"
     life = result.life(TITANIUM, "fatemi_socie", y=0.0)
@@ -137,7 +137,7 @@ def test_where_nothing_yields_within_the_cycle_the_bits_are_those_of_the_elastic
         elastic = fatigue.evaluate_criterion(stress.values, item).value.values
         np.testing.assert_array_equal(total[still], elastic[still])
         assert (total[~still] != elastic[~still]).any()
-        # Where it yields most the strain is larger than that of the stress.
+        # Where it yields most the strain is larger than the stress gives.
         largest = np.unravel_index(int(np.argmax(total - elastic)), total.shape)
         assert total[largest] > 1.3 * elastic[largest]
 

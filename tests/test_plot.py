@@ -1,4 +1,4 @@
-"""Every figure is drawn without a screen and shows what it says."""
+"""Every figure is drawn without a screen and shows its numbers."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ LAW = fret.wear.Archard(k=1e-15)
 
 
 def of_pressure(grid: fret.Grid) -> float:
-    """Error of the pressure of the ball, root mean square over that of Hertz's."""
+    """Error of the pressure of the ball, root mean square over Hertz's."""
     scene = fret.Scene(body1=BALL, body2=FLAT, friction=0.0, grid=grid)
     path = fret.LoadPath.start().normal(W, increments=1)
     p = fret.solve(scene, path, progress=False).at(-1).p

@@ -1,4 +1,4 @@
-"""The README does what it says."""
+"""The code of the README runs and prints its text."""
 
 from __future__ import annotations
 

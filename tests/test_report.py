@@ -57,7 +57,7 @@ def test_a_page_with_wear_says_which_surfaces_its_loops_are_of(
     page: Path, result: fret.Result, tmp_path: Path
 ) -> None:
     text = page.read_text(encoding="utf-8")
-    assert "numbers of the run are those of the surfaces before wear" in text
+    assert "numbers of the run belong to the surfaces before wear" in text
     assert "are those on the worn surfaces" in text
     result.report(tmp_path / "alone.html")
     assert "before wear" not in (tmp_path / "alone.html").read_text(encoding="utf-8")
@@ -87,7 +87,7 @@ def test_a_crack_that_does_not_say_its_bodies_is_refused(
     saved.save(tmp_path / "old.nc")
     arrays = fret.fracture.Cracks.from_arrays([1e-5, 2e-5], [1e6, 1e6], [0.0, 0.0])
     for crack in (fret.open(tmp_path / "old.nc"), arrays):
-        with pytest.raises(ValueError, match=r"crack: does not say which bodies.*result.crack"):
+        with pytest.raises(ValueError, match=r"crack: lacks the bodies.*result.crack"):
             result.report(tmp_path / "page.html", crack=crack)
     assert not (tmp_path / "page.html").exists()
 

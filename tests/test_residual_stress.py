@@ -216,7 +216,7 @@ def test_residual_stress_intensity_of_a_crack() -> None:
 
 @pytest.mark.solves
 def test_a_body_that_yields_takes_its_own_residual_stress() -> None:
-    """Another one at the question is refused; what is left of a load holds that of the scene."""
+    """Another one at the question is refused; the stress after unloading holds the scene's."""
     law = fret.Plastic(s_y=1000e6, hardening=5e9)
     soft = fret.Elastic(E=210e9, nu=0.3, plastic=law)
     path = fret.LoadPath.start().normal(200.0, increments=2).normal(2.0, increments=1)

@@ -46,8 +46,8 @@ def scene(lower: fret.Elastic, cycles: int, *, save: str = "branches") -> fret.S
 def test_the_bound_parts_shakedown_from_alternating_plasticity(part: float, bar: float) -> None:
     """1.05 of the yield stress that load factors ask for shakes down, 0.8 of it should alternate.
 
-    The bound is that of the worst point, in the surface at the rim of the contact: 721, 717 and
-    716 MPa on 96, 192 and 384 cells. The bar of 2 % belongs to 0.8 of a bound of 648 MPa, that of
+    The worst point sets the bound, in the surface at the rim of the contact: 721, 717 and
+    716 MPa on 96, 192 and 384 cells. The bar of 2 % belongs to 0.8 of a bound of 648 MPa, found by
     points inside; this is 0.725 of the bound in the surface.
     """
     elastic = fret.solve(scene(STEEL, 1, save="all"), progress=False)

@@ -1,4 +1,4 @@
-"""A store from somebody else is data: what it asks for beside being read is refused by name."""
+"""A store from somebody else is data: anything beside arrays to be read is refused by name."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def sent(tmp_path_factory: pytest.TempPathFactory) -> Path:
     result = fret.solve(SCENE, out=folder / "run.zarr", progress=False)
     result.save(folder / "copy.zarr")
     with warnings.catch_warnings():
-        # Zarr says that format 3 has no consolidated metadata yet; xarray writes them.
+        # Zarr warns that format 3 has no consolidated metadata yet; xarray writes them.
         warnings.simplefilter("ignore")
         result.dataset.load().to_zarr(folder / "copy3.zarr", zarr_format=3)
     fret.study.run(
@@ -45,7 +45,7 @@ def sent(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def changed(store: Path, change: Callable[[dict[str, Any]], None]) -> None:
-    """Change what the metadata say of an array, in its own document and in the consolidated one."""
+    """Change the metadata of an array, in its document and in the consolidated one."""
     own_values = store / "p_max" / (".zarray" if (store / ".zgroup").exists() else "zarr.json")
     document = json.loads(own_values.read_text())
     change(document)

@@ -362,7 +362,7 @@ def test_measures_have_their_range_or_are_called_estimates() -> None:
     assert list(computed) == [*names, "life_2", "crack_depth_2", "s_1"]
     for name in ("stiffness", "s_1", "safety_factor", "life_2"):
         assert f"{name}_low" in computed[name].dataset
-    # A figure says how well its numbers are known, and a line has its range.
+    # A figure shows the errors of its numbers, and a line has its range.
     for name, pattern in (("s_1", ("±", "factor")), ("loop_energy", ("estimate",))):
         drawn = computed[name].map(name)
         assert any(word in drawn.get_ylabel() for word in pattern), drawn.get_ylabel()

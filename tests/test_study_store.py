@@ -54,7 +54,7 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def files_of(store: Path) -> list[str]:
-    """The files of a store, but for documents that are read from the consolidated ones."""
+    """The files of a store, without documents that are read from the consolidated ones."""
     single = (".zattrs", ".zarray", ".zgroup")
     computed = [p.relative_to(store) for p in store.rglob("*") if p.is_file()]
     return sorted(str(p) for p in computed if p.name not in single)

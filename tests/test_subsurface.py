@@ -139,7 +139,7 @@ def test_sections_lines_and_planes_agree(coated: fret.Result) -> None:
         np.testing.assert_allclose(line[name][1:], plane[1:, 20, 5], atol=1e-5 * coated.p_H)
     # On the surface they are the tractions, at the rim those that are continued to it.
     inside = snapshot.contact.rolling(x=3, y=3, center=True).min().fillna(0) > 0
-    # Beside a cell whose middle lies outside the rim they are those of five times as fine a grid,
+    # Beside a cell whose middle lies outside the rim they match a grid five times as fine,
     # which the cell's own pressure is not; elsewhere linear between the middles, with the load of
     # the cells: off by half the bend over one.
     fine = sphere_on_flat(ratio=2.0, n=160)

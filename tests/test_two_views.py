@@ -29,7 +29,7 @@ FRET = ROOT / "target" / "release" / "fret"
 #: Units of pages in SI.
 UNITS = {"um": 1e-6, "urad": 1e-6, "MPa": 1e6, "uJ": 1e-6, "mJ/m": 1e-3, "N": 1.0, "N m": 1.0}
 UNITS |= {"N/m": 1.0, "": 1.0, "%": 0.01}
-#: Names of the store by those of the pages that are others.
+#: Names in the store by differing names in the pages.
 NAMES = {
     "a": "contact_radius",
     "radius": "contact_radius",
@@ -213,7 +213,7 @@ def test_numbers_of_a_run_of_wear(scene: fret.Scene, result: fret.Result) -> Non
         value, half = read(text)
         assert value == pytest.approx(float(right), abs=1.01 * half)
     assert shown["depth"][1][-1] == pytest.approx(1e6 * float(last.depth2), rel=2e-3)
-    # The loop of the page is that of the run of wear.
+    # The page shows the loop of the run of wear.
     loop = shown["loops"][-1]
     assert max(loop["y"]) == pytest.approx(float(worn.dataset.loop_T_x[-1].max()), rel=1e-3)
     assert max(loop["x"]) == pytest.approx(

@@ -19,7 +19,7 @@ from pyfret.fit.ranges import ranges
 from pyfret.study.design import Design
 
 HISTORY = np.ones((3, 2, 6)) * 1e8
-#: A number in the unit of another program, and what the doubt of it says.
+#: A number in the unit of another program, and the text of its doubt.
 SLIPS: dict[str, tuple[Callable[[], Any], str]] = {
     "conductivity in W/(mm K)": (
         lambda: heat.Conductor(conductivity=0.045, heat_capacity=3.6e6),

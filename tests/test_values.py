@@ -313,10 +313,10 @@ def test_increments_of_a_march_are_those_of_a_run() -> None:
         same = result.at(int(increment.increment)).dataset
         mine = increment.dataset
         xr.testing.assert_equal(mine, same)
-        # How the run ends is known at its end; what is doubted is known as far as it has come.
+        # How the run ends is known at its end; doubts are known up to the last increment.
         so_far = {"status": "done", "doubts": result.dataset.attrs["doubts"]}
         assert {**mine.attrs, **so_far} == same.attrs
-        # Rounded down: fewer than eight is not told as eight.
+        # Rounded down: fewer than eight is not printed as eight.
         cells = np.floor(10.0 * float(increment.cells_per_radius)) / 10.0
         assert f"{cells:.1f} cells" in increment.doubts[0]
         assert all(mine[name].attrs == same[name].attrs for name in mine.variables)

@@ -347,7 +347,7 @@ def test_the_rig_of_a_run_of_wear_is_in_its_scene_and_on_its_page(
         )
         if matches.startswith(b"{")
     )
-    # The loops that the page draws of wear are those of the result and of its figure.
+    # The page draws the loops of the result and of its figure.
     axes = fret.plot.wear_loops(run)
     for drawn, loop in zip(axes.lines, numbers["wear"]["loops"], strict=True):
         assert np.allclose(drawn.get_xdata(), loop["x"], rtol=1e-4, atol=1e-9)
@@ -388,7 +388,7 @@ def test_a_coating_that_is_worn_through_has_its_cycles() -> None:
     assert run.cycles_to(depth=1.001 * last).beyond == float(run.cycles[-1])
     with pytest.raises(AttributeError, match=r"its \.dataset\.isel\(jump=-1, .*block=-1"):
         run.at(-1)
-    # Every event has the error of its jump, and is told with it.
+    # Every event is printed with the error of its jump.
     ends = run.dataset.cycles.values
     for event in run.events:
         at = int(np.searchsorted(ends, event["cycles"] * (1.0 - 1e-12)))

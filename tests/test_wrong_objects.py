@@ -67,7 +67,7 @@ def test_a_property_that_fails_says_why_by_itself() -> None:
 
 
 def test_closed_forms_print_their_numbers_with_units() -> None:
-    """Every attribute that is a number stands in the text; its unit is that of its docstring."""
+    """Every attribute that is a number stands in the text; its unit stands in its docstring."""
     made = {
         "Hertz": fret.reference.hertz(R=0.05, bodies=(STEEL, STEEL), W=30.0),
         "HertzEllipse": fret.reference.hertz_ellipse(R_x=0.01, R_y=0.02, E_star=1e11, W=30.0),
@@ -119,7 +119,7 @@ def test_a_figure_says_what_it_takes_instead_of_what_it_is_given(
                 draw(entry, **needed)
                 drawn += 1
             except (TypeError, ValueError) as refused:
-                # What lacks something says what, and what to give.
+                # An object that lacks something names it, and the remedy.
                 match = re.search(rf"^{first}\b|: give ", str(refused))
                 if not match:
                     wrong.append(f"{name}({key}): {type(refused).__name__}: {refused}")
@@ -172,7 +172,7 @@ def test_figures_of_a_life_are_those_of_its_worst_point(public: Any) -> None:
     assert fret.plot.critical_plane_rose(life).get_title("left").startswith("Smith")
     assert len(fret.plot.life_over_distance(life).lines[0].get_xdata()) == 9
     fret.plot.dang_van_diagram(life)
-    # All of it beyond the longest life that is told.
+    # All of it beyond the longest life that is printed.
     fret.plot.life_over_distance(life).figure.canvas.draw()
     fret.plot.criterion_map(life).figure.canvas.draw()
     plt.close("all")

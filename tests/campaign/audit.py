@@ -158,7 +158,7 @@ class Audit:
         width = self.scene.grid.dx * self.scene.grid.nx / 4
         normal = max(sums["W"], max((abs(t.get("W", 0.0)) for t in self.targets), default=0.0))
         room = ROOM * self.tolerance
-        # Loads are looked at where the file says what they are: at the end of a branch.
+        # Loads are compared where the file prescribes them: at the end of a branch.
         if self.ends_branch(increment):
             target = self.targets[int(number("branch_of_increment"))]
             for name, expected in target.items():

@@ -174,7 +174,7 @@ def killed(kind: str, count: int, folder: Path, rng: random.Random) -> str:
 
 
 def must_open(place: Path) -> None:
-    """Open a place that a killed process left, unless it says that nothing is there yet."""
+    """Open the folder that a killed process left, unless the error is that nothing is there yet."""
     try:
         fret.open(place)
     except fret.errors.StoreError as error:

@@ -1,4 +1,4 @@
-"""Random scenes from all that a scene file can say, as its text."""
+"""Random scenes with any key of a scene file, as text."""
 
 from __future__ import annotations
 

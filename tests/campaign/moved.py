@@ -177,7 +177,7 @@ def numbers(
     last, number = result.at(-1), drawn.body_number
     d = result.dataset
 
-    # The moment about the place of the contact: about the middle of the grid, that of W is in it.
+    # The moment about the place of the contact. About the middle of the grid it includes W's.
     X, Y = (cells * drawn.cell for cells in drawn.offset)
     about_contact = {"M_x": d.M_x - d.W * Y, "M_y": d.M_y + d.W * X}
 
@@ -277,7 +277,7 @@ def compared(
                 continue
             moved = numbers(moved_scene, **options)
             for name, (value, error) in right.items():
-                # The nominal contact of a map is the whole grid: its mean gap is that of a place.
+                # The nominal contact of a map is the whole grid: its mean gap depends on the place.
                 if name == "mean_gap" and moved_scene.offset != drawn.offset:
                     continue
                 there, error_there = moved.get(name, (np.nan, 0.0))

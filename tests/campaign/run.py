@@ -2,7 +2,7 @@
 
 Says what became of them, and names the scenes that failed or violate an equation; with ``--json``
 each line is a scene: its seed, what became of it, the seconds it took. With ``--whole`` layers have
-bonds that give way, and of every result heat, cracks and wear follow, some under laws of one's own
+bonds that give way, and of every result heat, cracks and wear follow, some under laws of the user
 (:mod:`follow`). Scenes run in processes of their own, so that one that does not end can be ended.
 """
 
@@ -81,7 +81,7 @@ class Worker:
     seed: int
     #: Its processor time when that began, and the time [s].
     begun: tuple[float, float]
-    #: What it has told of a line that is not whole.
+    #: The part of a line that it has written so far.
     remainder: bytes = b""
 
     def spent(self) -> tuple[float, float]:

@@ -62,21 +62,21 @@ def outcome(call: Callable[..., Any], arguments: dict[str, Any]) -> str:
         computed = call(*by_position, **by_name)
     except (*ALLOWED, *OWN) as error:
         text = str(error)
-        # A scene tells every mistake, each with its place on a line of its own.
+        # The error of a scene has a line with a place for each mistake.
         listed = isinstance(error, fret.errors.InvalidSceneError)
         whole = "\n" not in text or (listed and all(": " in line for line in text.splitlines()))
-        # What PyO3 says of a value of another type has several lines.
+        # PyO3's message for a value of another type has several lines.
         if not text.strip() or not (whole or isinstance(error, TypeError)):
-            return f"BAD: {type(error).__name__} says {text[:200]!r}"
+            return f"BAD: {type(error).__name__} has the text {text[:200]!r}"
         return f"refused: {type(error).__name__}: {text[:150]}"
     except AttributeError as error:
-        # What takes any object of a kind says what it was given in its place.
+        # A function for any object of a kind names the wrong object in its message.
         kinds = (type(value).__name__ for value in arguments.values())
         if any(f"{kind}' object has no attribute" in str(error) for kind in kinds):
             return f"refused: AttributeError: {error}"
         return f"BAD: AttributeError: {error}"
     except RuntimeError as error:
-        # A map over loads says at which of them there is no answer, and why.
+        # A map over loads names the loads without an answer, and the reasons.
         if re.match(r"[TW] = ", str(error)):
             return f"refused: RuntimeError: {error}"
         return f"BAD: RuntimeError: {error}"
@@ -84,7 +84,7 @@ def outcome(call: Callable[..., Any], arguments: dict[str, Any]) -> str:
         return f"BAD: {type(error).__name__}: {str(error)[:200]!r}"
     given_values = list(flat([*by_position, *by_name.values()]))
     if all(np.all(np.isfinite(v)) for v in given_values if np.asarray(v).dtype.kind == "f"):
-        # A record says with NaN what was not asked.
+        # A record has NaN for a number that was not asked for.
         for values in computed if type(computed) in (list, tuple) else [computed]:
             numbers = isinstance(values, (float, np.ndarray)) and np.asarray(values).dtype.kind
             if numbers in ("f", "c") and np.any(np.isnan(values)):

@@ -532,7 +532,7 @@ def methods(cls: type, prefix: str) -> Iterator[tuple[str, Callable[..., Any]]]:
 
 
 def good(name: str, call: Callable[..., Any]) -> tuple[dict[str, Any], list[str]] | None:
-    """Good arguments of a call by name, and those of its parameters that may be given.
+    """Good arguments of a call by name, and the parameters that may be passed.
 
     None where the signature is unknown.
     """
@@ -607,7 +607,7 @@ OF_NO_CLASS: list[Callable[[], Any]] = [
 
 
 def unlike(value: Any) -> list[Any]:
-    """Hostile values in the place of `value`: those of its type, and some of other types."""
+    """Hostile values in the place of `value`, of its type and of some other types."""
     computed = [*hostile(value), *never(value), None, object(), {}, [], "", Liar([1.0]), b"x"]
     if isinstance(value, np.ndarray) and value.ndim:
         axes = [f"a{n}" for n in range(value.ndim)]

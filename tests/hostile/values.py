@@ -43,7 +43,7 @@ ARRAY = np.linspace(0, 2e-4, 5)
 
 
 class Liar(list[Any]):
-    """A list that says that it is very long."""
+    """A list whose length claims to be very large."""
 
     def __len__(self) -> int:
         """Give far more than there is."""

@@ -202,7 +202,7 @@ def buckling_release(
     """
     if not (half_width > 0.0 and np.isfinite(half_width)):
         raise ValueError(
-            f"half_width = {half_width}: must be a positive length in m, half of that of the strip"
+            f"half_width = {half_width}: must be a positive length in m, half of the strip"
         )
     E, nu, h = coating.material.E, coating.material.nu, coating.thickness
     plane = E / (1.0 - nu * nu)

@@ -44,7 +44,7 @@ __all__ = ["report"]
 HERE = Path(__file__).parent
 #: Note on the numbers of a run on a page with its wear.
 SURFACES = (
-    "<p>The numbers of the run are those of the surfaces before wear. The energy of a cycle and "
+    "<p>The numbers of the run belong to the surfaces before wear. The energy of a cycle and "
     "the loops in the section on wear are those {of}.</p>"
 )
 
@@ -103,7 +103,7 @@ def report(
         bodies = bodies_of(data)
         if bodies is None:
             raise ValueError(
-                f"{name}: does not say which bodies it is in. It is from arrays, or an older "
+                f"{name}: lacks the bodies that it is in. It is from arrays, or an older "
                 "version saved it. Compute it from the run: crack=result.crack()"
             )
         if bodies != bodies_of(result):
@@ -216,8 +216,8 @@ def bars(result: Run) -> str:
     """Explain the error bars, or how to get them."""
     if result.dataset.attrs.get("error_bars"):
         return (
-            "Behind &plusmn; stand estimated errors: of the cells, told by runs on other grids, of "
-            "the increments, told by a run with fewer, and of the solver."
+            "Behind &plusmn; stand estimated errors: of the cells, from runs on other grids, of "
+            "the increments, from a run with fewer, and of the solver."
         )
     return (
         "This run has no error bars; <code>fret run --error</code> or "
