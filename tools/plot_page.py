@@ -342,7 +342,7 @@ def page() -> str:
         "datasets and tables are functions alone. A figure of one panel returns its axes, one of",
         'several panels the figure: `.figure.savefig("name.png")` writes either. Parameters are in',
         "the [reference](plot.md). Each picture stands below its code. `result` is the run of a",
-        "coated ball, `rig` that of a cylinder on titanium with a bulk stress. Written by",
+        "coated ball, `rig` the run of a cylinder on titanium with a bulk stress. Written by",
         "`tools/plot_page.py`.",
     ]
     for title, figures in FIGURES.items():

@@ -112,10 +112,10 @@ def front(
     parts = [
         "# Validation",
         f"Every page is written by `make validation` from runs of pyfret {fret.__version__}; all "
-        f"of them took {seconds:.0f} s. Errors are ours less the truth, over the truth; those of "
-        "fields are L2 norms over the cells. The order is that of the error in the number of "
+        f"of them took {seconds:.0f} s. Errors are ours less the truth, over the truth; errors of "
+        "fields are L2 norms over the cells. The order is the power of the error in the number of "
         "cells a side, over several places of the rim within the cells where these matter; the "
-        "processor time is that of one run and of that on half as many cells, for "
+        "processor time is for one run and one on half as many cells, for "
         "its error bars.",
         "\n".join(
             [
@@ -126,7 +126,7 @@ def front(
         ),
         *others,
         "## The paper's figures",
-        "\n".join(["| figure | the paper says | ours |", "|---|---|---|", *figures]),
+        "\n".join(["| figure | the paper | ours |", "|---|---|---|", *figures]),
     ]
     (folder / "README.md").write_text("\n\n".join(parts) + "\n", encoding="utf-8")
 

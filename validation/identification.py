@@ -215,17 +215,17 @@ def page(sets: dict[str, list[dict[str, Any]]]) -> str:
             table(draws),
             f"Solves: {np.median(solves):.0f} in the middle, {max(solves)} at most; "
             f"{sum(d['converged'] for d in draws)} of {len(draws)} searches ended by themselves; "
-            f"in {apart} the summary says that two unknowns cannot be told apart, in {open_} that "
-            "one is not resolved.",
+            f"in {apart} the summary has two unknowns that it cannot separate, in {open_} "
+            "one that is not resolved.",
         ]
     parts += [
         "![Errors and confidence of every draw](identification.png)",
         "Lines are confidence intervals, orange where they miss the true value; points the values.",
         "Friction follows from the height of the loop, within two per cent. A loop alone does not "
         "separate the spring of the rig from the coating, both of which tilt it, and the summary "
-        "says so; its intervals are wide, and right. An indentation curve, which the rig does not "
-        "enter, separates the two. Intervals that miss the modulus lie below it: the stiffer the "
-        "coating, the less it changes either curve.",
+        "has this doubt; its intervals are wide, and right. An indentation curve, which the rig "
+        "does not enter, separates the two. Intervals that miss the modulus lie below it: the "
+        "stiffer the coating, the less it changes either curve.",
     ]
     return "\n\n".join(parts) + "\n"
 

@@ -112,8 +112,8 @@ def write(folder: Path) -> str:
         "# Kernels of layered bodies",
         "Tables computed with 40 to 90 digits (`tests/data`), every component under every "
         "traction: thin and thick layers, soft and hard, one to five of them. Errors are over the "
-        "largest component of an entry, those of the influence coefficients over that of the "
-        "loaded cell under pressure.",
+        "largest component of an entry; errors of the influence coefficients are over the "
+        "loaded cell's under pressure.",
         "![errors of the kernels](kernels.png)",
         "\n".join(rows),
         "[All pages](README.md)",

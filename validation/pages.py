@@ -108,15 +108,15 @@ def write(outcome: Outcome, folder: Path) -> None:
             "## Error against the increments",
             table(steps, "increments", steps.order_along_path),
             ("" if truth.path_places == 1 else f"Root mean square over {truth.path_places} grids. ")
-            + f"The order is that of errors more than {LEFT_BY_CELLS} times what is left with the "
-            "most increments, which the cells leave; none where fewer than two are.",
+            + f"The order is taken over errors more than {LEFT_BY_CELLS} times what is left with "
+            "the most increments, which the cells leave; none where fewer than two are.",
         ]
     if outcome.placed is not None:
         parts += [
             "## Error over the places of the rim within the cells",
             f"Root mean square over {truth.places} grids whose cells differ by up to a tenth: "
-            "single runs go up and down by where the rim lies in its cells, so that only these "
-            "tell an order.",
+            "single runs go up and down by where the rim lies in its cells, so that only their "
+            "mean has an order.",
             table(outcome.placed, "cells a side", outcome.placed.order),
         ]
     parts += [f"![errors]({truth.name}_error.png)"]

@@ -25,22 +25,22 @@ DRAWN = (0.5, 0.7)
 CELLS = 256
 #: Errors that are asked for; that of the stick zone is one cell.
 ASKED = {"approach": "1 %", "p(0)": "1 %", "worn volume": "1 %", "largest depth": "2 %"}
-#: Grids that tell the order of a line contact, and places of the stick zone's border in the cells.
+#: Grids that have the order of a line contact, and places of the stick zone's border in the cells.
 GRIDS, PLACES = (64, 128, 256, 512), 8
 
 FULLY_WORN = (
     "W and the amplitude of T are constant, the bodies alike with nu = 0. The contact shrinks to "
     "Cattaneo's stick zone of the half-width c, which is unworn: $c/a = (1 - T/(\\mu W))^{1/3}$ "
     "under a sphere, $(1 - T/(\\mu W))^{1/2}$ under a cylinder (V. L. Popov, Sci. Rep. 4 (2014) "
-    "3749). Its pressure is that of a Hertz contact and of a flat punch of that half-width, and "
+    "3749). Its pressure is the sum of a Hertz contact and of a flat punch of that half-width, and "
     "what the unworn surfaces would overlap by outside is worn off."
 )
 CELLS_NEEDED = (
     "Under a cylinder the cell that the border of the stick zone runs through wears in part "
     "([Wear: how we know](../wear_evidence.md)). That is much: by the closed form a change of c by "
     "one part in a hundred "
-    "moves the worn area by 13 of them at T = 0.3 mu W and by 6.4 at 0.5. Which cells the march "
-    "has stick is told by whole cells. Under a sphere the border runs through its cells at all "
+    "moves the worn area by 13 of them at T = 0.3 mu W and by 6.4 at 0.5. Stick in the march "
+    "is a property of whole cells. Under a sphere the border runs through its cells at all "
     "places, and its mean is known to a twentieth of one, of which the worn volume at "
     "T = 0.3 mu W, most sensitive, is off by up to 1 %. The 256 cells of a cylinder cost a second "
     "of a processor, the 256 x 256 of a sphere 16 to 30 s."
@@ -49,8 +49,8 @@ LATE = (
     "Once the scar is much wider than the first contact it has forgotten the elasticity: both "
     "bodies together have lost a segment or a cap of the half-width "
     "$b = (\\frac32 R k W s)^{1/3}$ (cylinder, W per length) or $(4 R k W s/\\pi)^{1/4}$ "
-    "(sphere) and the depth $b^2/(2R)$, s the whole way slipped and k that of both bodies. The "
-    "half-width is that of the parabola through the flank where it is a twentieth as deep."
+    "(sphere) and the depth $b^2/(2R)$, s the whole way slipped and k the sum of both bodies. The "
+    "half-width follows from the parabola through the flank where it is a twentieth as deep."
 )
 MEASURED = (
     "A cylinder (R = 6 mm) on a flat, both bodies wearing, 18 000 cycles of gross slip: R. McColl, "

@@ -49,7 +49,7 @@ TRIES = 24
 CELLS_TIMES_ERROR = 0.31
 #: Cells in the shortest wave of a rough or a wavy surface.
 IN_A_WAVE = 8
-#: Cells across the contact before it wears, on the grid and on that of the trial, and most cells
+#: Cells across the contact before it wears, on the grid and on the trial grid, and most cells
 #: along a side of that one: a scar thirty times as long as the contact is none of this rig.
 IN_A_FIRST, IN_A_TRIAL, MOST_OF_TRIAL = 16, 8, 256
 #: Cells along the length of a contact that is too long for square cells.
@@ -453,7 +453,7 @@ def _refined(
 ) -> tuple[list[float], list[int]]:
     """Sides and cells along them, doubled until the numbers asked for agree to `error`.
 
-    The change c to twice as many cells goes on as a geometric series. Its ratio r is that of the
+    The change c to twice as many cells goes on as a geometric series. Its ratio r is taken from the
     last two changes: c r/(1 - r) remains. Of the first change r is unknown, and half of `error` is
     allowed. Sides that the contact reaches grow. Where no grid of at most MOST_TRIED cells agrees,
     the finest one is given, with a warning.

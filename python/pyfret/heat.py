@@ -169,7 +169,7 @@ def temperature(
         Solved with ``save="all"``, or with the increments of the cycle and the one before it.
     conductor1, conductor2 : Conductor, Material, or sequence of them
         Of each body one for all layers, or one for each from the surface down, the substrate's
-        last; materials as in :meth:`Conductor.from_material`. The thicknesses are those of the
+        last; materials as in :meth:`Conductor.from_material`. The thicknesses are taken from the
         scene.
     frequency : float
         Cycles per second [Hz].
@@ -181,7 +181,7 @@ def temperature(
         Branches share the period as they share the path time t.
     harmonics : int, optional
         Harmonics of the heat in time; 0 for the mean alone (default: half the kept increments of
-        the cycle, which is what these tell of it, up to 32).
+        the cycle, the most that these resolve, up to 32).
     cycle : int
         Which of the closed cycles; the last by default.
 

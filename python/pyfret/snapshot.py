@@ -152,7 +152,7 @@ class Snapshot(State, Shows):
             Whether its bulk stress is part of the stress.
         residual : sequence, optional
             Residual stress of every layer from the surface down, the substrate's last, in place of
-            that of the body. Each is a stress [Pa] or a table over depth, as :class:`Body` takes
+            the body's. Each is a stress [Pa] or a table over depth, as :class:`Body` takes
             it.
 
         Warns

@@ -129,7 +129,7 @@ def page(out: Path) -> Page:
             "2.1 MPa m^0.5 and 124 MPa (positive halves), a_0 = "
             f"{MICRO * threshold.a_0:.1f} um."
         ),
-        fitted="nothing; the threshold of Al-4%Cu is that of the literature.",
+        fitted="nothing; the threshold of Al-4%Cu is taken from the literature.",
         predicted="the range of K over the length of a crack, and whether and where it stops.",
         comparison=[
             "No threshold of K of the steel is known to the page, and none is needed for plain "

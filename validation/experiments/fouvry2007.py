@@ -121,16 +121,16 @@ def page(out: Path) -> Page:
         conditions="An alumina ball, R = 12.7 mm (370 GPa, 0.27), in gross slip on 1.6 um of TiC "
         "(510 GPa, 0.2) or 4 um of TiN on tool steel (230 GPa, 0.3), 100 N, 5 Hz, 50 % relative "
         'humidity. Only the flat wears. `fret.experiments.fouvry2007("TiC")` is the scene.',
-        fitted="nothing for the depths. The wear coefficient alpha of each coating is that of its "
-        "worn volumes (TiC 415e-18, TiN 6919e-18 m^3/J). Slip (75 um) and friction (0.45) are "
-        "chosen, since those of the single tests are not in the tables; energies are given, so "
-        "that depth over energy hardly depends on either. Failure at 0.8 of the thickness is the "
-        "paper's energy density at failure; 0.70 of TiN was taken from TiC.",
+        fitted="nothing for the depths. The wear coefficient alpha of each coating follows from "
+        "its worn volumes (TiC 415e-18, TiN 6919e-18 m^3/J). Slip (75 um) and friction (0.45) "
+        "are chosen, since the values of single tests are not in the tables; energies are given, "
+        "so that depth over energy hardly depends on either. Failure at 0.8 of the thickness is "
+        "the paper's energy density at failure; 0.70 of TiN was taken from TiC.",
         predicted="the depth in the middle of the scar against energy, and the cycles to failure.",
         comparison=[
             depths,
             drawn(out, "experiment_fouvry2007", draw),
-            "The error is that of the jumps over cycles; the grid (64 x 64 cells against 96 x 96) "
+            "The error comes from the jumps over cycles; the grid (64 x 64 cells against 96 x 96) "
             "leaves 0.1 %.",
             of_tic,
             of_tin,

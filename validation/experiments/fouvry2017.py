@@ -112,15 +112,15 @@ def page(out: Path) -> Page:
         "density phi of a row, over twice the length of the contact. "
         '`fret.experiments.fouvry2017("RP_f_20")` is the scene of a row.',
         fitted="of each row the coefficient of friction, from its energy, and alpha, its volume "
-        f"over its energy. The part of the debris that stays, {KEPT}, is that of P. Arnaud, "
+        f"over its energy. The part of the debris that stays, {KEPT}, comes from P. Arnaud, "
         "S. Baydoun, S. Fouvry, Tribol. Int. 161 (2021) 107077, who found it on this pair: one "
         "number for all rows. For the volumes a power law of alpha, fitted to these rows.",
         predicted="the half-width of the scar.",
         comparison=[
             table(head, cells),
             drawn(out, "experiment_fouvry2017", draw),
-            "The error is half a cell and that of the jumps. The last column is energy with one "
-            "coefficient of friction, 0.65, over the measured one.",
+            "The error is half a cell and the error of the jumps. The last column is energy with "
+            "one coefficient of friction, 0.65, over the measured one.",
             f"Volumes: alpha = {np.exp(at) * 1e4**slope:.3g} (phi/1e4 W/m^2)^{slope:.3f} m^3/J; "
             f"{factor(volume, 1.5)}.",
         ],
@@ -147,7 +147,7 @@ def page(out: Path) -> Page:
         ],
         verdict="One number for the debris carries the widths over a factor 8 of the radius; "
         f"without debris they are too large ({spread(without, 0.35)}). What is left has causes in "
-        "the data: the measured half-width of R_3 is that of the unworn Hertz contact, and the "
+        "the data: the measured half-width of R_3 equals the unworn Hertz contact's, and the "
         "power density of one test differs between the series of the paper. A power law of "
         "the power density alone carries the volumes at one radius and load (rows f and RP_f), "
         "but not those at other radii and loads: R_1, P_2 and P_4 are off by up to 2.1. No "

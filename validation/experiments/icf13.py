@@ -118,14 +118,14 @@ def page(out: Path) -> Page:
         comparison=[
             table(head, cells),
             drawn(out, "experiment_icf13", draw),
-            "The error is that of the search for the threshold. The range is that of 10 to 90 % of "
+            "The error comes from the search for the threshold. The range holds 10 to 90 % of "
             "the specimens (`ThresholdLoad.low`, `high`). It has the error of the stress, the "
             "scatter of the limits, and the critical distance.",
         ],
         claims=[
             Claim("FF", "each within 20 %", spread(predicted, 0.20), bool(off.max() <= 0.20)),
             Claim(
-                "FF, measured value in the range that is told",
+                "FF, measured value in the printed range",
                 "8 of 10",
                 f"{sum(inside)} of {len(inside)}",
                 sum(inside) >= 0.8 * len(inside),

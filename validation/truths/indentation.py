@@ -108,8 +108,8 @@ def thin_ring(pair: str) -> str:
         return ""
     return (
         f" Here the slip ring is {slip_ring(pair):.1f} cells wide on 256 cells a side: the cells "
-        "that tell the rim lie in the stick zone, where the pressure follows another law, and a "
-        "is off by up to a fifth of a cell until the ring is five cells wide."
+        "that determine the rim lie in the stick zone, where the pressure follows another law, and "
+        "a is off by up to a fifth of a cell until the ring is five cells wide."
     )
 
 

@@ -51,7 +51,7 @@ def parser() -> argparse.ArgumentParser:
     commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
     study = added(commands, "study", "solve a scene for many values of its parameters")
     study.add_argument("file", help="study file (TOML)")
-    study.add_argument("-o", "--out", help="store (default: that of the file, or NAME.zarr)")
+    study.add_argument("-o", "--out", help="store (default: the one in the file, or NAME.zarr)")
     study.add_argument("--workers", type=int, help="processes (default: one for each processor)")
     study.add_argument("--scheduler", help="address of a Dask cluster, such as tcp://host:8786")
     study.add_argument("--again", action="store_true", help="also points that failed before")
@@ -75,7 +75,7 @@ def parser() -> argparse.ArgumentParser:
     report.add_argument("-o", "--out", help="page to write (default: NAME.html)")
     report.add_argument("--wear", metavar="STORE", help="result of fret wear, shown as well")
     report.add_argument(
-        "--crack", action="store_true", help="show a crack as well; the options below say which"
+        "--crack", action="store_true", help="show a crack as well, with the options below"
     )
     crack.add_crack(report)
     report.add_argument(
@@ -87,7 +87,7 @@ def parser() -> argparse.ArgumentParser:
         "may be given several times",
     )
     verify = added(commands, "verify", "check this installation against closed forms, in minutes")
-    cite = added(commands, "cite", "say what to cite for a result")
+    cite = added(commands, "cite", "print what to cite for a result")
     cite.add_argument("store", nargs="?", help="result (default: all methods)")
     for command in (study, report, verify, cite):
         command.add_argument("--json", action="store_true", help="print one JSON object")

@@ -19,7 +19,7 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
     """Add the command and its options."""
     compare = added(commands, "compare", "put bodies side by side, such as several coatings")
     compare.add_argument("file", help="file of the comparison (TOML)")
-    compare.add_argument("-o", "--out", help="store (default: that of the file, or NAME.zarr)")
+    compare.add_argument("-o", "--out", help="store (default: the one in the file, or NAME.zarr)")
     compare.add_argument("--workers", type=int, help="processes (default: one for each processor)")
     compare.add_argument("--again", action="store_true", help="also bodies that failed before")
     compare.add_argument(

@@ -31,7 +31,7 @@ FIELDS = (".nc", ".zarr")
 
 def add_options(commands: argparse._SubParsersAction[Any]) -> None:
     """Add the command to a command line."""
-    crack = added(commands, "crack", "say whether a crack below the contact grows or stops")
+    crack = added(commands, "crack", "compute whether a crack below the contact grows or stops")
     crack.add_argument("store", help="result, the increments of its cycle kept")
     add_crack(crack)
     crack.add_argument("--json", action="store_true", help="one JSON object per length and verdict")
@@ -45,7 +45,7 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
         crack,
         "--paris",
         Values(Value("Paris.C"), Value("number")),
-        "growth C and its exponent m (default: those of --material, where it has them)",
+        "growth C and its exponent m (default: the numbers of --material)",
         metavar="C,M",
     )
     crack.add_argument(

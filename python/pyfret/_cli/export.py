@@ -48,7 +48,7 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
     command.add_argument(
         "--origin",
         default="0,0,0",
-        help="middle of the grid in the model [in that of --unit, or with a unit]",
+        help="middle of the grid in the model [in the unit of --unit, or with a unit]",
     )
     command.add_argument("--axis-x", default="1,0,0", help="the contact's x in the model")
     command.add_argument("--axis-z", default="0,0,1", help="the contact's z, into body 2")

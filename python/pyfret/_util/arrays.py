@@ -3,14 +3,14 @@
 One rule for every module:
 
 - Booleans, complex numbers, texts, dates and objects are no numbers.
-- A masked value and a NaN are the same, a missing value. It is refused, or, where a function says
+- A masked value and a NaN are the same, a missing value. It is refused, or, where a function states
   so, a hole. Infinity is refused.
 - An array with labels (xarray, pandas) is taken by its labels: axes by the names of its
   dimensions, components by their names, points by their index. Where a label has no meaning, an
   array of more than one axis is refused: its order is unknown. An array without labels is taken by
   place.
 - What came in with labels goes out with them.
-- What a sequence says of its length is not trusted.
+- The length that a sequence claims is not trusted.
 """
 
 from __future__ import annotations
@@ -64,11 +64,11 @@ def items(values: Iterable[T], name: str) -> list[T]:
     """
     if isinstance(values, (str, bytes, Mapping)) or not hasattr(values, "__iter__"):
         raise TypeError(f"{name} = {values!r:.60}: must be a list")
-    says = len(values) if isinstance(values, Sized) else None
+    length = len(values) if isinstance(values, Sized) else None
     found: list[T] = []
     for value in values:
-        if len(found) == says:
-            raise ValueError(f"{name}: says that it has {says} values and gives more")
+        if len(found) == length:
+            raise ValueError(f"{name}: has the length {length} and yields more values")
         found.append(value)
     return found
 
@@ -76,7 +76,7 @@ def items(values: Iterable[T], name: str) -> list[T]:
 def plain(values: ArrayLike, name: str, *, holes: bool = False) -> NDArray[np.float64]:
     """The numbers of an array, by the rules of this module.
 
-    `name` is that of the argument. With `holes` missing values are allowed and are NaN. A field
+    `name` is the name of the argument. With `holes` missing values are allowed and are NaN. A field
     with the labels x and y has the shape (x, y), both axes ascending.
     """
     if sorted(map(str, labels(values))) == list(PLANE):
@@ -142,7 +142,7 @@ def labels(values: object) -> tuple[Hashable, ...]:
 
 
 def pitch(values: Any, name: str) -> tuple[float | None, float | None]:
-    """How far the points of a field with labels lie apart along x and y, if they say so [m].
+    """Spacing of the points of a field along x and y, if its labels have it [m].
 
     Raises
     ------
@@ -196,7 +196,7 @@ def together(*, holes: bool = False, **arrays: ArrayLike) -> tuple[NDArray[np.fl
         if axes != other_axes or unlike:
             raise ValueError(
                 f"{one} and {other} have other labels, along {axes[0]} and {other_axes[0]}: "
-                "must be those of the same points in the same order"
+                "must belong to the same points in the same order"
             )
     rows = np.stack(list(found.values()))
     whole = ~np.isnan(rows).any(axis=0)

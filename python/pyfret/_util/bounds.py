@@ -1,7 +1,7 @@
 """Numbers of a table with the range that the estimate of their error leaves.
 
 A number ``name`` has its range as ``name_low`` and ``name_high``. A number without an error is an
-estimate: its attribute ``accuracy`` says so.
+estimate: its attribute ``accuracy`` has this word.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ FACTOR = 1.5
 
 
 def split(name: str, names: Collection[str]) -> tuple[str, str]:
-    """A name as that of a number and the side of its range."""
+    """The name of a number, and the side of its range."""
     for side in SIDES:
         base = name.removesuffix(side)
         if side and base != name and base in names:

@@ -29,7 +29,7 @@ ROWS_OF_SHEET, NAME_OF_SHEET = 1_048_576, 31
 
 
 def unit_of(name: str, of: xr.DataArray) -> str:
-    """The unit of a variable: its own, or that of the key that it is named after; "" of numbers."""
+    """The unit of a variable, or of the key that it is named after; "" of numbers."""
     measured = _core.measured_by(name)
     unit = str(of.attrs.get("units", "1" if measured is None else measured[1]))
     return "" if unit == "1" else unit
@@ -49,7 +49,7 @@ def columns_of(dataset: xr.Dataset, rows: Sequence[str] | None = None) -> dict[s
     dataset : xarray.Dataset
         Variables with units.
     rows : sequence of str, optional
-        The axes of the table (default: those of the first variable).
+        The axes of the table (default: the axes of the first variable).
     """
     first = next(iter(dataset.data_vars.values()))
     over = [str(d) for d in (first.dims if rows is None else rows) if d != AXIS]

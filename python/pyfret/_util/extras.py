@@ -9,7 +9,7 @@ __all__ = ["needed"]
 
 
 def needed(module: str, extra: str) -> Any:
-    """Import a library, or say which extra of the package brings it."""
+    """Import a library, or name the extra of the package that brings it."""
     try:
         return import_module(module)
     except ModuleNotFoundError as absent:

@@ -68,7 +68,7 @@ class Figures:
         self._shown = shown
 
     def __call__(self, *args: Any, **options: Any) -> Any:
-        """Draw the figure that shows the whole; `options` are those of that figure."""
+        """Draw the figure that shows the whole; `options` are passed to it."""
         return self._shown._draw(*args, **options)
 
     def __getattr__(self, name: str) -> Callable[..., Any]:

@@ -76,7 +76,7 @@ def content(values: Any) -> bytes:
 def sums_of(dataset: xr.Dataset, *, numbers: bool) -> dict[str, int]:
     """Checksums of the attributes (its name is empty) and of each variable with its labels.
 
-    Without `numbers` those of the variables are of their labels alone.
+    Without `numbers` the units of the variables stand in their labels alone.
     """
     attributes = {k: v for k, v in dataset.attrs.items() if k != SUMS}
     found = {"": zlib.crc32(json.dumps(plain(attributes), sort_keys=True).encode())}
@@ -355,7 +355,7 @@ def is_copy(path: str | os.PathLike[str]) -> bool:
         return True
     try:
         if (Path(path) / "zarr.json").is_file():
-            # Format 3, which xarray writes unless it is told otherwise.
+            # Format 3, which xarray writes by default.
             group = json.loads((Path(path) / "zarr.json").read_bytes())
             return isinstance(group["attributes"]["schema"], int)
         consolidated = json.loads((Path(path) / ".zmetadata").read_bytes())

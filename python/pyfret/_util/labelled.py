@@ -32,7 +32,7 @@ class Labelled(Tabular):
         return dataset_attribute(self, name)
 
     def __dir__(self) -> list[str]:
-        """The names of the class, and those of the dataset."""
+        """The names of the class, and of the dataset."""
         return sorted({*object.__dir__(self), *dataset_names(self.dataset)})
 
     def __eq__(self, other: object) -> bool:

@@ -22,7 +22,7 @@ LENGTHS = ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm"))
 
 
 def in_words(value: float, digits: int = 4) -> str:
-    """A few digits, no zeros that say nothing, no power of ten where none is needed.
+    """A few digits, no trailing zeros, no power of ten where none is needed.
 
     Examples
     --------
@@ -43,7 +43,7 @@ def format_number(value: object) -> str:
 
     Examples
     --------
-    >>> told(5.0000000000000036), told(3), told("7075")
+    >>> format_number(5.0000000000000036), format_number(3), format_number("7075")
     ('5', '3', '7075')
     """
     return in_words(float(value)) if isinstance(value, float) else str(value)

@@ -130,7 +130,7 @@ class Progress:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """Take the bar off the screen: what it told is over."""
+        """Take the bar off the screen when its work is over."""
         if Progress._outermost is self:
             Progress._outermost = None
         if self.view is not None:

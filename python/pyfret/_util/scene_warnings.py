@@ -67,7 +67,7 @@ def sizes(given: Any) -> Iterator[float]:
         return
     if isinstance(given, (list, tuple)):
         if given and all(is_row(row) for row in given):
-            # A table: its last column is the quantity, the others say where.
+            # A table: its last column is the quantity, the others are places.
             yield max((abs(size) for row in given for size in sizes(row[-1])), default=0.0)
             return
         for value in given:

@@ -26,12 +26,12 @@ def sheet(of: Any) -> str:
     names = max(len(name) for name, _, _ in rows)
     # A part is longer than any number, and no column of its own.
     values = max((len(value) for _, value, _ in rows if "(" not in value), default=0)
-    told = (f"  {name:<{names}}  {value:<{values}}  {meaning}" for name, value, meaning in rows)
-    return "\n".join([f"{type(of).__name__}:", *told])
+    texts = (f"  {name:<{names}}  {value:<{values}}  {meaning}" for name, value, meaning in rows)
+    return "\n".join([f"{type(of).__name__}:", *texts])
 
 
 def lines(of: Any, before: str = "") -> Iterator[tuple[str, str, str]]:
-    """Name, value and meaning of every attribute, those of a part that has a sheet by its name."""
+    """Name, value and meaning of every attribute; a part with a sheet by its name."""
     for name, attribute in inspect.getmembers_static(type(of), inspect.isgetsetdescriptor):
         found = DOCUMENTED.match(inspect.getdoc(attribute) or "")
         if name.startswith("_") or found is None:

@@ -36,7 +36,7 @@ NAMES = frozenset(
 )
 #: Documents that hold metadata.
 DOCUMENTS = (".zarray", ".zattrs", ".zgroup", ".zmetadata", "zarr.json")
-#: Bytes that an array may have without a file of its own, and values of a chunk, that of a field of
+#: Bytes that an array may have without a file of its own, and values of a chunk, a field of
 #: the largest grid.
 FREE, LARGEST = 1 << 26, 1 << 28
 #: Levels of folders of a store.
@@ -139,7 +139,7 @@ def check_arrays(document: Mapping[str, Any], where: Path, root: Path, *, chunks
 
 
 def check_array(of: Mapping[str, Any], where: Path, root: Path, *, chunks: bool) -> None:
-    """Refuse what the metadata of an array ask for; others say nothing of arrays."""
+    """Refuse what the metadata of an array ask for; other documents describe no arrays."""
     if "shape" not in of and "dtype" not in of and "data_type" not in of:
         return
     name = where.name
@@ -181,7 +181,7 @@ def check_chunks(of: Mapping[str, Any], where: Path, root: Path, limit: int) -> 
 def check_size(
     of: Mapping[str, Any], where: Path, root: Path, word: str, *, unpacked: bool
 ) -> None:
-    """Refuse an array that says it is larger than its files can make it."""
+    """Refuse an array whose shape is larger than its files can make it."""
     grid = of.get("chunk_grid") or {}
     inner = grid.get("configuration", {}) if isinstance(grid, dict) else {}
     # A single number has no axis: its chunks are an empty list.

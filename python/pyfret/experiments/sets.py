@@ -155,7 +155,7 @@ def fouvry2007(
     coating : str
         One of the table ``fouvry2007_coatings``.
     slip, mu : float
-        Amplitude of the slip [m] and coefficient of friction: those of the single tests are not
+        Amplitude of the slip [m] and coefficient of friction: the values of single tests are not
         in the tables. Depth over energy hardly depends on either.
     """
     row = row_of("fouvry2007_coatings", "coating", coating)
@@ -180,7 +180,7 @@ def fouvry2007(
         row,
         {"cycles": 420.0 / energy, "cycling": "sliding", "body2": law},
         (
-            "table 3 has a head 10^3 um^3/J: text and figure 3 say 415 um^3/J, the 10^3 is void",
+            "table 3 has a head 10^3 um^3/J: text and figure 3 have 415 um^3/J, the 10^3 is void",
             "table 4 has a head 10^3 J/um^2: it is 10^-3",
             "figure 16a: ticks 50000 and 3000 are 5000 and 30000",
             "the energy density at the centre of figure 13 is the energy over pi a_H^2 (matched "
@@ -278,7 +278,7 @@ def arnaud2021(*, debris_kept: float = KEPT, bed: bool = False) -> Experiment:
     }
     remarks = (
         "axes W/mm3 are W/mm2; eps 11 mm2/W; alpha_c,ad 1.0e-5 (table), not 0.5e-5",
-        "the profile holds 2.81 mm^3, that of RP_f_20 2.87",
+        "the profile holds 2.81 mm^3, the one of RP_f_20 2.87",
     )
     return Experiment(ARNAUD, test.scene, row, arguments, remarks)
 

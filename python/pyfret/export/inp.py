@@ -37,7 +37,7 @@ REFUSED = {
     "TRANSFORM": "forces on its nodes act along other axes",
     "IMPERFECTION": "nodes are moved",
     "ADJUST": "nodes are moved",
-    "IMPORT": "the model is that of another job",
+    "IMPORT": "the model belongs to another job",
     "PARAMETER": "numbers are names",
     "SYMMETRIC MODEL GENERATION": "nodes are generated",
     "CYCLIC SYMMETRY MODEL": "the model is one sector",

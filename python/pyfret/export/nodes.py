@@ -62,7 +62,7 @@ def nodal_forces(
     """Forces on nodes that do the same work on the faces as the tractions.
 
     Each cell lies in a face. The shape functions N_i of this face share the cell's force among its
-    nodes: F_i = sum over the cells of t A N_i. Sums of forces and moments are those of the contact,
+    nodes: F_i = sum over the cells of t A N_i. Sums of forces and moments agree with the contact,
     whatever the sizes of cells and faces.
 
     Parameters

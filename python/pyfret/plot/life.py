@@ -317,9 +317,7 @@ def history_of(stress: ArrayLike | Life) -> tuple[NDArray[np.float64], fatigue.C
         return stress.history(), stress.criterion
     history = histories(stress, "stress").whole()
     if history.size != 6 * len(history):
-        raise ValueError(
-            f"stress has the shape {history.shape}: must be that of one point, (time, 6)"
-        )
+        raise ValueError(f"stress has the shape {history.shape}: must be (time, 6), of one point")
     return history.reshape(-1, 6), None
 
 
@@ -455,7 +453,7 @@ def haigh_diagram(
     ``s_D`` fully reversed to ``s_u`` without amplitude (Goodman 1899). Else it follows from Dang
     Van's criterion, s_D - (1 - s_D/(2 t_D)) times the mean.
 
-    The limit is meant for planes of the largest normal stress, such as those of
+    The limit is meant for planes of the largest normal stress, as found by
     ``"smith_watson_topper"``. Planes of shear have less normal stress at the same danger.
 
     Parameters

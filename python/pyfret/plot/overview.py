@@ -28,7 +28,7 @@ __all__ = ["overview"]
 
 @styled
 def overview(shown: Run | State, *, units: Units = "auto", width: Width | None = None) -> Figure:
-    """Draw six panels, those of the report: the loop, tractions, zones and the stress below.
+    """Draw the six panels of the report: the loop, tractions, zones and the stress below.
 
     Of a path without a cycle the loads over the path stand in place of the loop. Of a line contact
     slip and the stick ratio stand in place of maps. ``result.plot()`` is the same.

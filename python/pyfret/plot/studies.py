@@ -240,8 +240,8 @@ def smooth(field: np.ma.MaskedArray[Any, Any], levels: int) -> bool:
 def scatter_of(field: np.ma.MaskedArray[Any, Any]) -> float:
     """Standard deviation of the noise of values on a grid.
 
-    Second differences along both parameters of white noise have 36 times its variance, those of a
-    smooth field are small: J. Immerkaer, Comput. Vis. Image Underst. 64 (1996) 300-302.
+    Second differences along both parameters of white noise have 36 times its variance, of a
+    smooth field they are small: J. Immerkaer, Comput. Vis. Image Underst. 64 (1996) 300-302.
     """
     along = field[2:] - 2.0 * field[1:-1] + field[:-2]
     twice = along[:, 2:] - 2.0 * along[:, 1:-1] + along[:, :-2]

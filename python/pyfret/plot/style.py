@@ -34,7 +34,7 @@ def style() -> Iterator[None]:
         try:
             yield
         finally:
-            # The first figure starts the backend, and that of a notebook turns this on: it is no
+            # The first figure starts the backend, and a notebook's backend turns this on: it is no
             # matter of looks, and without it no later cell shows its figures.
             interactive = plt.isinteractive()
     (plt.ion if interactive else plt.ioff)()

@@ -53,7 +53,7 @@ LOOP = {
         "m",
         "error of the opening; without error bars by increments and width of the slip zone",
     ),
-    "energy_ratio": ("1", "dissipated energy over that of the surrounding rectangle"),
+    "energy_ratio": ("1", "dissipated energy over the area of the surrounding rectangle"),
     "energy_ratio_error": ("1", "error of the energy ratio, where the run has error bars"),
     "sliding_ratio": ("1", "opening over the range of the shift, NaN where not known to 0.05"),
     "sliding_ratio_error": (

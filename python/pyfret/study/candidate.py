@@ -53,7 +53,7 @@ class Candidate:
     materials: Materials | None = None
     #: Yield stress of the substrate, or of every layer [Pa] (default: from the materials).
     s_y: YieldStresses | None = None
-    #: Residual stress of every layer, each a stress [Pa] or a table over depth (default: that of
+    #: Residual stress of every layer, each a stress [Pa] or a table over depth (default: the one of
     #: the body).
     residual: LayerStresses | None = None
     #: Energy release rate at which a crack channels through the outermost coating [J/m^2].

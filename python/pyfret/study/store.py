@@ -269,9 +269,9 @@ def why_invalid(name: str, taken: Iterable[str]) -> str:
     if name in taken:
         return "is one that the study has itself: give another"
     if not name or name.startswith((".", "_")) or "/" in name or "\\" in name:
-        return "must be that of an array in a store: not empty, no . or _ first, no / or \\ in it"
+        return "must name an array in a store: not empty, no . or _ first, no / or \\ in it"
     if not name.isprintable() or len(name.encode()) > LONGEST:
-        return f"must be that of a folder: at most {LONGEST} bytes, all of them printed"
+        return f"must name a folder: at most {LONGEST} bytes, all of them printed"
     return ""
 
 

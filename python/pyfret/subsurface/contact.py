@@ -132,7 +132,7 @@ def stress_error(state: State) -> dict[str, float]:
         return {}
     of_branch = bars[int(state.dataset.branch_of_increment)]
     if "stress" not in of_branch:
-        # A store of before has those of the fields alone.
+        # A store of an older version has the errors of the fields alone.
         return {"stress_error": float(np.hypot(*(of_branch[k]["total"] for k in ("p", "q"))))}
     return {"stress_error": of_branch["stress"]["total"]}
 

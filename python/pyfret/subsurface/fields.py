@@ -48,7 +48,7 @@ def _depths(body: Body, z: ArrayLike | None, length: float) -> tuple[list[float]
         raise ValueError(f"z has {wanted_depths.size} depths: must be at most {MOST_DEPTHS}")
     depths = wanted_depths.tolist()
     if not depths:
-        raise ValueError("z is empty: give depths in m, or leave it out for those of the layers")
+        raise ValueError("z is empty: give depths in m, or leave it out for depths from the layers")
     return _core.depths(body, depths)
 
 
@@ -359,7 +359,7 @@ def envelope(
         ``first_branch`` and ``last_branch``. On a section also over ``increment``: the largest
         value on it, ``<name>_largest``, and where it is between the samples, ``<name>_largest_x``
         (``_y``, ``_s``), ``<name>_largest_z`` and ``<name>_largest_layer``. At the rims of the
-        contact and the borders of the stick zone it is evaluated. Elsewhere it is that of a
+        contact and the borders of the stick zone it is evaluated. Elsewhere it is the error of a
         parabola between the samples, with the error ``<name>_largest_error``.
     """
     if (x is not None and y is not None) != (azimuth is not None):
@@ -432,7 +432,7 @@ def _largest(name: str, rows: NDArray[np.float64], along: str) -> xr.Dataset:
         f"{name}_largest_{along}": (x, "m", f"{along} of the {meaning}"),
         name + "_largest_z": (z, "m", f"depth of the {meaning}"),
         name + "_largest_layer": (layer.astype(int), "1", f"layer of the {meaning}"),
-        name + "_largest_error": (error, "Pa", f"what the samples leave of the {meaning}"),
+        name + "_largest_error": (error, "Pa", f"error of the samples of the {meaning}"),
     }
     return xr.Dataset(
         {

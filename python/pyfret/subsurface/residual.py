@@ -39,8 +39,8 @@ def thermal_stress(
     coating : Elastic or Material
         Modulus and Poisson's ratio of the coating.
     alpha_coating, alpha_substrate : float or Material
-        Coefficients of linear thermal expansion [1/K], or materials that have ``alpha_T``; that of
-        the coating by default the coating's own, where it is a material.
+        Coefficients of linear thermal expansion [1/K], or materials that have ``alpha_T``. For
+        the coating the default is its own, where it is a material.
     temperature_change : float
         Temperature less that at which the coating was free of stress [K], negative after cooling.
 

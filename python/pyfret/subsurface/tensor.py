@@ -168,7 +168,7 @@ class Stress(Labelled, Figured):
     def rims(self) -> Stress:
         """Give the surface stress where the section crosses the rim of the contact.
 
-        It has a cusp there, such as the tension at the trailing edge. The stress is that of
+        It has a cusp there, such as the tension at the trailing edge. The stress belongs to
         tractions which vary within the cells and vanish at the rim.
         """
         return self._on_borders("rim")

@@ -226,7 +226,7 @@ class WearResult(Saveable, Labelled, Figured):
         if quantity not in ("depth", "volume"):
             raise ValueError(f"quantity = {quantity!r:.60}: must be 'depth' or 'volume'")
         name = f"{quantity}_error"
-        # Stores without an error of the volume have that of the depth.
+        # Stores without an error of the volume have the error of the depth.
         return float(self.dataset[name if name in self.dataset else "depth_error"][-1])
 
     @property

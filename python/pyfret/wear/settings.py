@@ -128,8 +128,8 @@ class Wear(Replaceable):
     closed_below : float
         Gap below which the region between the bodies is closed to the air [m].
     first_branch : int, optional
-        First branch of the path that belongs to the cycle, counted from 0 (default: that of the
-        last closed cycle); the cycle ends where it begins.
+        First branch of the path that belongs to the cycle, counted from 0 (default: the first in
+        the last closed cycle); the cycle ends where it begins.
     branch_counts : sequence of float, optional
         How often a cycle passes each of its branches (default: each once). :func:`solve` sets them
         for a load history, whose cycle is a block of loops.
