@@ -129,6 +129,7 @@ check: setup ## formats, lints, circles of imports, types, spelling, sentences
 	cargo clippy --workspace --all-targets --locked --release -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --release --quiet
 	$(PY) tools/acyclic.py
+	$(BIN)/lint-imports --no-logo
 	$(PY) tools/prose.py
 	$(PY) tools/words.py
 	$(BIN)/ruff format --check

@@ -1,22 +1,16 @@
-"""Fails on a circle of imports among the source files, or among the folders that hold them.
+"""Fail on a circle of imports among the files of a crate, or among the folders that hold them.
 
-Read are the `use` statements and the paths of the Rust crates and the imports of the Python
-package, those for types alone included. A name counts for the file that defines it: one that only
-hands it on (`pub use`, `__init__.py`) is no dependency. Within a folder, its files and its folders
-must be without a circle too, each folder taken as one.
-
-`import_module("pyfret.x")` is an import of `pyfret.x`: from an `__init__.py` it may name what lies
-within its package, and its argument is a literal, not a name that is put together.
+It reads the `use` statements and the paths of the crates. A name counts for the file that defines
+it: a file that only passes it on (`pub use`) is no dependency. Within a folder, its files and its
+folders must be without a circle too, each folder taken as one. `lint-imports` does the same for the
+package of Python.
 """
 
 from __future__ import annotations
 
-import ast
 import re
 import sys
 from pathlib import Path
-
-PACKAGES = ("python/pyfret",)
 
 Graph = dict[Path, set[Path]]
 Name = tuple[str, ...]
@@ -164,86 +158,6 @@ class Crate:
         return graph
 
 
-def late_imports(tree: ast.AST, package: str) -> list[str | None]:
-    """Give the modules of a package that `import_module` names; None where no literal does."""
-    found: list[str | None] = []
-    for node in ast.walk(tree):
-        if not isinstance(node, ast.Call) or not node.args:
-            continue
-        called = node.func.attr if isinstance(node.func, ast.Attribute) else node.func
-        name = called.id if isinstance(called, ast.Name) else called
-        if name not in ("import_module", "__import__"):
-            continue
-        words = [one.value for one in ast.walk(node.args[0]) if isinstance(one, ast.Constant)]
-        if any(str(word).startswith((package, ".")) for word in words):
-            plain = isinstance(node.args[0], ast.Constant) and words[0].startswith(package)
-            found.append(words[0] if plain else None)
-    return found
-
-
-def unseen(root: Path) -> list[str]:
-    """Give a line for each call of `import_module` that no graph can show."""
-    said = []
-    for file in sorted(root.rglob("*.py")):
-        own = file.relative_to(root.parent).with_suffix("").parts
-        for to in late_imports(ast.parse(file.read_text()), root.name):
-            if to is None:
-                said.append(f"{file}: import_module of a name that is put together")
-            elif file.name == "__init__.py" and not to.startswith(".".join(own[:-1]) + "."):
-                said.append(f"{file}: import_module({to!r}) is not within the package")
-    return said
-
-
-def package(root: Path) -> Graph:
-    """Which files of a Python package each file imports from."""
-    files = {}
-    for file in sorted(root.rglob("*.py")):
-        name = file.relative_to(root.parent).with_suffix("").parts
-        files[name[:-1] if name[-1] == "__init__" else name] = file
-    imports: dict[Name, dict[str, Name]] = {name: {} for name in files}
-    trees = {name: ast.parse(file.read_text()) for name, file in files.items()}
-    for name, tree in trees.items():
-        parent = name if files[name].name == "__init__.py" else name[:-1]
-        for node in ast.walk(tree):
-            if isinstance(node, ast.ImportFrom):
-                base = parent[: len(parent) - node.level + 1] if node.level else ()
-                module = base + tuple((node.module or "").split(".") if node.module else ())
-                for one in node.names:
-                    imports[name][one.asname or one.name] = (*module, one.name)
-            elif isinstance(node, ast.Import):
-                for one in node.names:
-                    path = tuple(one.name.split("."))
-                    imports[name][one.asname or path[0]] = path if one.asname else path[:1]
-
-    def defined(path: Name, seen: frozenset[Name] = frozenset()) -> Path | None:
-        if path in files:
-            return files[path]
-        module = path[:-1]
-        if module not in files:
-            return None
-        target = imports[module].get(path[-1])
-        if target is None or path in seen:
-            return files[module]
-        return defined(target, seen | {path})
-
-    graph: Graph = {file: set() for file in files.values()}
-    for name, file in files.items():
-        if file.name == "__init__.py":
-            continue
-        targets = {alias: path for alias, path in imports[name].items() if path != (root.name,)}
-        graph[file] = {to for path in targets.values() if (to := defined(path))} - {file}
-        late = [tuple(to.split(".")) for to in late_imports(trees[name], root.name) if to]
-        for path in late:
-            init = root.parent.joinpath(*path, "__init__.py")
-            graph[file] |= {files.get(path, init)} & set(files.values())
-        for node in ast.walk(trees[name]):
-            if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
-                module = imports[name].get(node.value.id)
-                to = defined((*module, node.attr)) if module == (root.name,) else None
-                graph[file] |= {to} - {None, file} if to else set()
-    return graph
-
-
 def circles(graph: Graph) -> list[list[Path]]:
     """The shortest circle through each knot of a graph."""
     found, done = [], set()
@@ -286,12 +200,8 @@ def main() -> int:
     root = Path(__file__).parent.parent
     bad = 0
     crates = sorted(root.glob("crates/*/src"))
-    graphs = [(src, Crate(src).dependencies()) for src in crates]
-    graphs += [(root / src, package(root / src)) for src in PACKAGES]
-    for line in (line for src in PACKAGES for line in unseen(root / src)):
-        print(line)
-        bad += 1
-    for src, graph in graphs:
+    for src in crates:
+        graph = Crate(src).dependencies()
         of_files = circles(graph)
         folders = sorted(
             {
