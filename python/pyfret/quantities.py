@@ -25,10 +25,10 @@ from typing import (
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pyfret._util.echo import abridge_error
 from pyfret._util.keywords import check_places, refuse_unknown
 from pyfret._util.names import listing
 from pyfret._util.parameter import Signature, Unit, unit_of
+from pyfret._util.refusals import refuse_clearly
 
 if TYPE_CHECKING:
     from typing_extensions import dataclass_transform
@@ -172,21 +172,7 @@ def checked(call: C, dataclass: type | None = None) -> C:
     name = call.__qualname__.removesuffix(".__init__")
 
     @functools.wraps(call)
-    def call_checked(*values: Any, **keywords: Any) -> Any:
-        try:
-            return call_converted(values, keywords)
-        except (TypeError, ValueError, LookupError, OSError) as error:
-            abridge_error(error)
-            raise
-        except (AttributeError, RecursionError) as error:
-            arguments = dict(zip(read().names, values, strict=False)) | keywords
-            wrong = [key for key, value in arguments.items() if is_of_wrong_class(value, error)]
-            if not wrong:
-                raise
-            classes = ", ".join(f"{key} is a {type(arguments[key]).__name__}" for key in wrong)
-            raise TypeError(f"{name}: {classes}, which it does not take") from error
-
-    def call_converted(values: tuple[Any, ...], keywords: dict[str, Any]) -> Any:
+    def call_converted(*values: Any, **keywords: Any) -> Any:
         signature = read()
         rules, names = signature.rules, signature.names
         if signature.keywords is not None:
@@ -209,14 +195,8 @@ def checked(call: C, dataclass: type | None = None) -> C:
                 rules[key].warn(value)
         return answer
 
-    return call_checked  # type: ignore[return-value]
-
-
-def is_of_wrong_class(value: object, error: AttributeError | RecursionError) -> bool:
-    """Whether an argument is what an error speaks of: its class, or its endless nesting."""
-    if isinstance(error, RecursionError):
-        return isinstance(value, (list, tuple, dict))
-    return error.obj is value
+    refused = refuse_clearly(call_converted, name, lambda: read().names, lambda *_: None)
+    return refused  # type: ignore[return-value]
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(field,))

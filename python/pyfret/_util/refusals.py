@@ -1,0 +1,136 @@
+"""Errors of wrong arguments: of functions in Python and of compiled ones by one rule.
+
+A refusal names its argument. A value of a wrong class is a TypeError, whatever the function that
+received it raised.
+"""
+
+from __future__ import annotations
+
+import functools
+import re
+from collections.abc import Callable, Mapping
+from types import BuiltinFunctionType
+from typing import Any
+
+from pyfret._util.echo import abridge_error
+
+__all__ = ["refuse_clearly"]
+
+#: Errors that a value of a wrong class causes.
+WRONG_CLASSES = (OverflowError, RecursionError, AttributeError)
+#: The note of PyO3 on an argument.
+NOTE = re.compile(r"while processing '(\w+)'")
+#: Begin of a refusal that repeats the value.
+VALUE = re.compile(r"[\"'\d(\[{<+-]|inf\b|nan\b|True\b|False\b|None\b")
+#: Refusal of Python to call a value.
+NOT_CALLABLE = re.compile(r"'(\w+)' object is not callable")
+#: Classes of values that a refusal repeats.
+REPEATED = (str, float, int, list, tuple, set, dict, bytes, type, BuiltinFunctionType)
+#: Characters of a value that a refusal begins with.
+SHOWN = 50
+
+
+def refuse_clearly(
+    call: Callable[..., Any],
+    name: str,
+    names: Callable[[], list[str]],
+    refuse_call: Callable[[tuple[Any, ...], dict[str, Any]], Exception | None],
+) -> Callable[..., Any]:
+    """Return a function that raises its errors of arguments with their names.
+
+    Parameters
+    ----------
+    call : callable
+        Function.
+    name : str
+        Its name in messages, with its class.
+    names : callable
+        Its parameters in their order.
+    refuse_call : callable
+        From a call that raised a TypeError: the refusal of its keywords or of their number.
+    """
+
+    @functools.wraps(call)
+    def call_refusing(*values: Any, **keywords: Any) -> Any:
+        try:
+            return call(*values, **keywords)
+        except (*WRONG_CLASSES, TypeError, ValueError, LookupError, OSError) as error:
+            refusal = refuse_call(values, keywords) if isinstance(error, TypeError) else None
+            if refusal is None:
+                arguments = dict(zip(names(), values, strict=False)) | keywords
+                refusal = explain(name, arguments, error)
+            abridge_error(refusal or error)
+            if refusal is None:
+                raise
+        raise refusal
+
+    return call_refusing
+
+
+def explain(name: str, arguments: Mapping[str, Any], error: Exception) -> Exception | None:
+    """Return the refusal that names the argument an error is about; nothing where it is unknown."""
+    refusal = name_argument(error) or name_class(name, arguments, error)
+    refusal = refusal or name_value(arguments, error)
+    return refusal and refusal.with_traceback(error.__traceback__)
+
+
+def name_argument(error: Exception) -> Exception | None:
+    """Return a refusal of PyO3 with the name of its argument in the text, from the note.
+
+    An overflow is raised as a ValueError, a missing attribute and too deep a list as a TypeError.
+    """
+    notes = [NOTE.fullmatch(note) for note in getattr(error, "__notes__", ())]
+    names = [note[1] for note in notes if note]
+    if not names:
+        return None
+    text = str(error)
+    for name in names:
+        if not re.match(rf"{name}\b", text):
+            text = f"{name} = {text}" if VALUE.match(text) else f"{name}: {text}"
+    kind = type(error)
+    if issubclass(kind, WRONG_CLASSES):
+        kind = ValueError if issubclass(kind, OverflowError) else TypeError
+    return kind(text)
+
+
+def name_class(name: str, arguments: Mapping[str, Any], error: Exception) -> TypeError | None:
+    """Return the refusal of arguments of a wrong class."""
+    uncalled = NOT_CALLABLE.fullmatch(str(error))
+    if uncalled is not None and not any(map(callable, arguments.values())):
+        for key, value in arguments.items():
+            if type(value).__name__ == uncalled[1]:
+                return TypeError(f"{key}: must be a function, not of the class {uncalled[1]}")
+    wrong = [key for key, value in arguments.items() if is_of_wrong_class(value, error)]
+    if not wrong:
+        return None
+    classes = ", ".join(f"{key} is a {type(arguments[key]).__name__}" for key in wrong)
+    return TypeError(f"{name}: {classes}, which it does not take")
+
+
+def is_of_wrong_class(value: object, error: Exception) -> bool:
+    """Check that an error is about the class of a value, or about its endless nesting."""
+    if isinstance(error, RecursionError):
+        return isinstance(value, (list, tuple, dict))
+    if not isinstance(error, AttributeError) or error.obj is not value:
+        return False
+    # An error that a function raises itself has no object.
+    return value is not None or "NoneType" in str(error)
+
+
+def name_value(arguments: Mapping[str, Any], error: Exception) -> Exception | None:
+    """Return a refusal that repeats a value with the name of its argument before it."""
+    text = str(error)
+    if ": must be" not in text or not isinstance(error, (TypeError, ValueError)):
+        return None
+    for key, value in arguments.items():
+        if isinstance(value, REPEATED) and text.startswith(begin(value)):
+            return type(error)(f"{key} = {text}")
+    return None
+
+
+def begin(value: object) -> str:
+    """Return the first characters of a value as it is written."""
+    try:
+        return repr(value)[:SHOWN]
+    except RecursionError:
+        return type(value).__name__
