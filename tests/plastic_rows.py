@@ -80,7 +80,7 @@ class Compared:
         given_values = loop + W * float(of["delta_z"][cycle.stop - 1] - of["delta_z"][cycle.start])
         self.see(what, given_values - elastic, friction + plastic, 0.01 * (friction + plastic))
 
-    def over(self) -> list[str]:
+    def misses(self) -> list[str]:
         """Give what is out of its bar."""
         return [
             f"{w}: off by {d:.3g}, allowed {a:.3g}" for w, d, a in self.found if not abs(d) <= a
@@ -93,12 +93,12 @@ class Compared:
         )
 
 
-def at(of_axis: Any, z: float) -> float:
+def value_at_depth(of_axis: Any, z: float) -> float:
     """Give the value at a depth, from the planes of its layer."""
     return float(PchipInterpolator(of_axis.z.to_numpy(), of_axis.to_numpy())(z))
 
 
-def beside(of_axis: Any, depth: float, layer: int) -> float:
+def value_at_interface(of_axis: Any, depth: float, layer: int) -> float:
     """Give the value at an interface, continued from the planes of a layer."""
     inside = of_axis.isel(z=np.flatnonzero(of_axis.layer.to_numpy() == layer))
     z, values = inside.z.to_numpy() - depth, inside.to_numpy()
@@ -168,7 +168,7 @@ def indented(
     depths = state["depths"]
     strain = loaded.on_axis("equivalent")
     largest = state["largest_plastic_strain"]["value"]
-    on_axis = [at(strain, z) for z in depths]
+    on_axis = [value_at_depth(strain, z) for z in depths]
     compared.table("p", on_axis, state["plastic_strain_on_axis"], 0.03 * largest)
     remaining = state["unloaded"]
     if isinstance(remaining, str):  # the row holds the reason instead
@@ -180,12 +180,12 @@ def indented(
     if interfaces:
         upper = max(upper, max(abs(value) for value in interfaces["value"]))
     for axis, component in (("rr", "xx"), ("zz", "zz")):
-        values = [at(stress.sel(component=component), z) for z in depths]
+        values = [value_at_depth(stress.sel(component=component), z) for z in depths]
         compared.table(axis, values, options[axis], 0.03 * upper)
     if interfaces:
         edges = np.cumsum([c["thickness"] for c in row["coatings"]])
         sides = [(z, n + side) for n, z in enumerate(edges) for side in (0, 1)]
-        values = [beside(stress.sel(component="xx"), z, layer) for z, layer in sides]
+        values = [value_at_interface(stress.sel(component="xx"), z, layer) for z, layer in sides]
         if (row["name"], number) in CONTRADICTORY:
             interfaces = {name: of_row[:1] for name, of_row in interfaces.items()}
             below = strain_along(row, stress, 1)[:1]
@@ -340,10 +340,10 @@ def drawn(row: dict[str, Any], *, n: int = 128, room: float = 1.5, **changes: An
     largest = max(
         *end["plastic_strain_below_centre"]["value"], row["largest_plastic_strain"]["value"][1]
     )
-    values = [at(strain, z) for z in end["depths"]]
+    values = [value_at_depth(strain, z) for z in end["depths"]]
     compared.table("p", values, end["plastic_strain_below_centre"], 0.03 * largest)
     upper = max(abs(value) for value in end["s_xx_below_centre"]["value"])
-    values = [at(stress, z) for z in end["depths"]]
+    values = [value_at_depth(stress, z) for z in end["depths"]]
     compared.table("xx", values, end["s_xx_below_centre"], 0.03 * upper)
     imprint = state.dataset.imprint.isel(grid_y=0)
     shape = PchipInterpolator(imprint.grid_x.to_numpy(), imprint.to_numpy())(end["imprint_x"])

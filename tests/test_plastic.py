@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 
 import pyfret as fret
-from plastic_rows import beside, body, rows
+from plastic_rows import body, rows, value_at_interface
 from pyfret import _core
 from pyfret.subsurface.plastic import YIELDED
 
@@ -341,7 +341,7 @@ def test_a_hard_film_is_in_tension_after_unloading() -> None:
     bottom = []
     for n, name in ((10, "stress"), (12, "residual_stress")):
         s_xx = result.at(n).plastic.on_axis(name).sel(component="xx")
-        bottom.append(beside(s_xx, film, 0))
+        bottom.append(value_at_interface(s_xx, film, 0))
     remaining = state["unloaded"]["s_rr_at_interfaces"]
     under_load = state["s_rr_at_interfaces_loaded"]
     for candidate, table in zip(bottom, (under_load, remaining), strict=True):

@@ -11,7 +11,7 @@ STATES = [(name, n) for name, row in rows("normal").items() for n in range(len(r
 
 def assert_within(found: Compared) -> None:
     """Fail where a number is out of its bar."""
-    assert not found.over(), f"{found}\n{found.over()}"
+    assert not found.misses(), f"{found}\n{found.misses()}"
 
 
 @pytest.mark.solves

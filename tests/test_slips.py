@@ -220,7 +220,7 @@ def test_paths_say_what_they_are() -> None:
         len(path)
     assert bool(path)
     mixed = PRESSED.tangential([1.0, -1.0])
-    assert "1 increments, those of 2 branches to be chosen" in repr(mixed)
+    assert "1 increments, more to be chosen in 2 branches" in repr(mixed)
     shifts = [2e-6, -2e-6, 2e-6]
     displaced = PRESSED.displace(delta_x=shifts, increments=50)
     assert [b.delta_x for b in displaced.branches[1:]] == shifts

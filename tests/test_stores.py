@@ -73,7 +73,8 @@ def asks(version: int, what: str) -> Callable[[dict[str, Any]], None]:
 @pytest.mark.solves
 @pytest.mark.parametrize("name", ["run", "copy", "copy3", "study"])
 @pytest.mark.parametrize(
-    ("what", "expected"), [("codec", "pickle"), ("object", "p_max"), ("size", "says that it has")]
+    ("what", "expected"),
+    [("codec", "pickle"), ("object", "p_max"), ("size", "values by its shape")],
 )
 def test_what_pyfret_does_not_write_is_refused(
     sent: Path, tmp_path: Path, name: str, what: str, expected: str

@@ -163,7 +163,7 @@ def test_damaged_events_are_refused_with_a_sentence(kind: str, tmp_path: Path) -
 @pytest.mark.parametrize(
     ("sentence", "key"),
     [
-        ("body2.E = 210 Pa is less than that of the softest gel", "body2.E"),
+        ("body2.E = 210 Pa is less than the softest gel's", "body2.E"),
         ("body1.shape.R = 5 m is large", "body1.shape.sphere.R"),
         ("the contact touches the border of the grid at increment 1", "grid.n"),
         ("friction.mu = -1: must be 0 or more", "friction.mu"),

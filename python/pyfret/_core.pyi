@@ -1726,7 +1726,7 @@ class History:
 
     ``INCREMENT``: increments done, the same for all cells. ``SLIP``: length of the way that the
     cell has slipped [m]. ``DISSIPATED``: energy dissipated per area [J/m^2]. ``CYCLES``: cycles of
-    wear done; a path that is run through once has done none. Over jumps of wear each is that of
+    wear done; a path that is run through once has done none. Over jumps of wear each is summed over
     all cycles so far.
     """
 
@@ -4128,7 +4128,7 @@ def solve_in_memory(
     Run a scene in memory; use :func:`pyfret.solve`, which labels what this one gives.
 
     These are the variables, each with dimensions, values and attributes as xarray takes them, and
-    what a store says of the run, as JSON.
+    the attributes of the run, as JSON.
     """
 
 def spectral_cycles(

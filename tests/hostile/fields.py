@@ -24,7 +24,7 @@ def convert(enlargement: int = 2, aliases: int = 0, grid: fret.Grid = GRID) -> o
     return kernels.convert(response, grid, enlargement=enlargement, aliases=aliases)
 
 
-def below(**loads: Any) -> _core.Subsurface:
+def make_subsurface(**loads: Any) -> _core.Subsurface:
     """The tractions on a coated body."""
     return _core.Subsurface(COATED, GRID, **loads)
 
@@ -75,7 +75,7 @@ CALLS: list[Call] = [
     ),
     (
         "Subsurface",
-        lambda **k: below(**k).points([(0.0, 0.0, 1e-5, 0)]),
+        lambda **k: make_subsurface(**k).points([(0.0, 0.0, 1e-5, 0)]),
         {
             "p": FIELD,
             "q_x": FIELD,
@@ -86,9 +86,13 @@ CALLS: list[Call] = [
             "rim": True,
         },
     ),
-    ("Subsurface.section", below(p=FIELD, rim=True).section, {"0": [1e-5], "1": [0], "y": 0.0}),
-    ("Subsurface.slice", below(p=FIELD, rim=True).slice, {"0": 1e-5, "1": 0}),
-    ("Subsurface.points", below(p=FIELD, rim=True).points, {"0": [(0.0, 0.0, 1e-5, 0)]}),
+    (
+        "Subsurface.section",
+        make_subsurface(p=FIELD, rim=True).section,
+        {"0": [1e-5], "1": [0], "y": 0.0},
+    ),
+    ("Subsurface.slice", make_subsurface(p=FIELD, rim=True).slice, {"0": 1e-5, "1": 0}),
+    ("Subsurface.points", make_subsurface(p=FIELD, rim=True).points, {"0": [(0.0, 0.0, 1e-5, 0)]}),
     (
         "stress",
         subsurface.stress,

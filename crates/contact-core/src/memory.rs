@@ -6,7 +6,7 @@ use crate::error::Error;
 
 /// Memory that a process may still take \[bytes\]: what the system has to give, or what the control
 /// group or the limit of address space of the process leaves. Infinite where the system does not
-/// say.
+/// report it.
 pub fn available_memory() -> f64 {
     system_memory().min(left_of_limit().unwrap_or(f64::INFINITY))
 }

@@ -32,20 +32,20 @@ pub(super) const LAST: usize = 512;
 const MODES: usize = 8;
 const LEFT: f64 = 3e-3;
 
-/// What cells answer beyond the harmonics that are solved.
+/// Answers of cells beyond the harmonics that are solved.
 pub(super) struct Beyond {
     /// Amplitudes of the modes in harmonic n.
     amplitudes: Vec<Vec<Complex64>>,
     /// The answers of both bodies to each mode at the highest harmonic that is solved.
     answers: Vec<[Vec<Complex64>; 2]>,
-    /// That harmonic.
+    /// Highest solved harmonic.
     solved: f64,
     /// g and e of the cells of both bodies \[W/(m^2 K)\]; none without heat.
     local: [Vec<Option<[f64; 2]>>; 2],
 }
 
 impl Beyond {
-    /// From the answers at the highest harmonic that is solved, at least 1.
+    /// Extrapolates the answers at the highest harmonic that is solved, at least 1.
     pub(super) fn new(
         bodies: [&Layers; 2],
         grid: &Grid,
@@ -116,7 +116,7 @@ impl Beyond {
     }
 }
 
-/// Orthonormal fields, the first that of the strongest increment, and the part of each in the heat
+/// Orthonormal fields, the first the heat of the strongest increment, and the part of each in the heat
 /// of every increment: the strongest of what is left, one after the other.
 fn modes(cycle: &Cycle<'_>) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
     let product = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };

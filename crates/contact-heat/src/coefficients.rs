@@ -25,7 +25,7 @@ const CUBATURE: f64 = 1e-13;
 const TOLERANCE: f64 = 1e-9;
 /// Gauss nodes on a side within [`NEAR_DISTANCE`] half lengths of the source: (1 + sqrt 2)^-40 is rounding.
 const NODES_NEAR: usize = 20;
-/// Those farther away: (2 NEAR_DISTANCE)^-12.
+/// Tolerance of cells farther away: (2 NEAR_DISTANCE)^-12.
 const NODES_FAR: usize = 6;
 /// Distance over half the length of a side.
 const NEAR_DISTANCE: f64 = 8.0;
@@ -89,7 +89,7 @@ fn over_cell(table: &RadialTable<2>, grid: &Grid, (i, j): (usize, usize), zeta: 
     sum
 }
 
-/// Those of the half-space of the outermost material.
+/// Coefficients of the half-space of the outermost material.
 fn half_space(body: &Layers, grid: &Grid, w: f64) -> Array2<Complex64> {
     let material = body.outermost();
     let l = plane_decay_squared(material, w).sqrt();

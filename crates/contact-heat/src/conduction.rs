@@ -21,7 +21,7 @@ pub struct Conduction {
 }
 
 impl Conduction {
-    /// Of a body on a grid at the angular frequency w >= 0 \[1/s\]; w = 0 is the steady state.
+    /// Conduction of a body on a grid at the angular frequency w >= 0 \[1/s\]; w = 0 is the steady state.
     ///
     /// Fails in plane strain, where the steady temperature has no bound, for w that is negative or
     /// no number, and if the coefficients of a coated body are not accurate.
@@ -36,10 +36,10 @@ impl Conduction {
             let allowed = "0 or more, in 1/s";
             return Err(Error::invalid("angular frequency", w, allowed));
         }
-        Ok(Self::of(coefficients(body, grid, w)?))
+        Ok(Self::from_coefficients(coefficients(body, grid, w)?))
     }
 
-    fn of(coefficients: Array2<Complex64>) -> Self {
+    fn from_coefficients(coefficients: Array2<Complex64>) -> Self {
         let scalar = |part: fn(&Complex64) -> f64| {
             let zz = coefficients.map(part);
             scalar_operator(zz)
@@ -54,7 +54,7 @@ impl Conduction {
 
     /// The response of two bodies that take the same flux.
     pub(super) fn sum(&self, other: &Self) -> Self {
-        Self::of(&self.coefficients + &other.coefficients)
+        Self::from_coefficients(&self.coefficients + &other.coefficients)
     }
 
     /// The temperature of a cell under unit flux on itself alone \[m^2 K/W\].

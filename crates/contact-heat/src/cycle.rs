@@ -78,7 +78,7 @@ impl Cycle<'_> {
         amplitude
     }
 
-    /// What a unit heat of each increment adds to the amplitude of harmonic n \[1/s\].
+    /// Contribution of a unit heat of each increment to the amplitude of harmonic n \[1/s\].
     pub(super) fn factors(&self, n: usize) -> Vec<Complex64> {
         let starts = std::iter::once(&0.0).chain(self.ends);
         let of_increment = |(start, end): (&f64, &f64)| {

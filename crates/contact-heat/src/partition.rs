@@ -1,4 +1,4 @@
-//! Which part of the heat each body takes: the surfaces agree in temperature wherever they touch.
+//! The part of the heat that each body takes: the surfaces agree in temperature wherever they touch.
 //!
 //! With q = q_1 + q_2 and T_1 + C_1 q_1 = T_2 + C_2 q_2 on the cells in contact, T_1 and T_2 being
 //! the temperatures far away,
@@ -22,7 +22,7 @@ use super::conduction::Conduction;
 const TOLERANCE: f64 = 1e-9;
 /// Rounding error of the residual, over the right-hand side.
 const ROUNDING: f64 = 1e-14;
-/// Most iterations: those of a matrix like 1/k grow with the root of the cells across the contact.
+/// Most iterations: for a matrix like 1/k they grow with the root of the cells across the contact.
 const MOST_ITERATIONS: usize = 2000;
 
 /// The heat shared out, at one frequency.

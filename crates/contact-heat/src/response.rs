@@ -38,7 +38,7 @@ pub(super) fn one_minus_exp(z: Complex64) -> Complex64 {
     )
 }
 
-/// Y, and Y less that of the half-space of the outermost material \[m^2 K/W\].
+/// Y, and Y less the Y of the half-space of the outermost material \[m^2 K/W\].
 fn both(body: &Layers, k: f64, w: f64) -> (Complex64, Complex64) {
     let below = body.substrate.conductivity * decay(body.substrate, k, w);
     let (mut conducts, mut rest) = (below, Complex64::ZERO);
@@ -63,12 +63,12 @@ pub fn surface_response(body: &Layers, k: f64, w: f64) -> Complex64 {
     both(body, k, w).0
 }
 
-/// The same less that of the half-space of the outermost material; it decays like exp(-2 k h).
+/// Response less the response of the half-space of the outermost material; it decays like exp(-2 k h).
 pub(super) fn remainder(body: &Layers, k: f64, w: f64) -> Complex64 {
     both(body, k, w).1
 }
 
-/// A wave number below which k times the response is well within its power series \[1/m\]: that of
+/// A wave number below which k times the response is well within its power series \[1/m\]: the series of
 /// the steady state ends at 1/(H contrast) or beyond, H the height of the stack; where the
 /// temperature swings, at its plane waves.
 pub(super) fn lowest_scale(body: &Layers, w: f64) -> f64 {

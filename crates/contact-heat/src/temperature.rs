@@ -42,7 +42,7 @@ pub struct Temperature {
     pub instants: Vec<f64>,
     /// The largest temperature of either surface at these.
     pub peaks: Vec<f64>,
-    /// What half of the harmonics change the largest temperature of all by.
+    /// Change of the largest temperature of all with half of the harmonics.
     pub error: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Where the closed forms hold: checks of their arguments, for those that come from outside.
+//! Validity of the closed forms: checks of their arguments, for those that come from outside.
 //!
 //! The functions and types beside this file compute whatever they are given; who cannot vouch for
 //! the arguments asks here first.
@@ -17,7 +17,7 @@ pub fn positive(key: &str, value: f64) -> Result<f64, Error> {
     Err(Error::invalid(key, value, allowed))
 }
 
-/// The same for a number that may be zero.
+/// Checks a number that may be zero.
 pub fn not_negative(key: &str, value: f64) -> Result<f64, Error> {
     if value == 0.0 || (SMALLEST..=LARGEST).contains(&value) {
         return Ok(value);
@@ -26,7 +26,7 @@ pub fn not_negative(key: &str, value: f64) -> Result<f64, Error> {
     Err(Error::invalid(key, value, allowed))
 }
 
-/// The same for a number of either sign.
+/// Checks a number of either sign.
 pub fn any_sign(key: &str, value: f64) -> Result<f64, Error> {
     not_negative(key, value.abs()).map(|_| value).map_err(|_| {
         Error::invalid(

@@ -18,7 +18,7 @@ pub fn layered_normal_response(k: f64, coating: Elastic, h: f64, substrate: Elas
         * (1.0 + layered_normal_remainder(k * h, coating, substrate))
 }
 
-/// [`layered_normal_response`] over that of a half-space of the coating's material, less one, at
+/// [`layered_normal_response`] over the response of a half-space of the coating's material, less one, at
 /// `kh` = k h; it decays like k h exp(-2 k h).
 pub(crate) fn layered_normal_remainder(kh: f64, coating: Elastic, substrate: Elastic) -> f64 {
     let zeta = coating.G() / substrate.G();

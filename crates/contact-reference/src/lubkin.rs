@@ -8,7 +8,7 @@ use contact_core::hertz::elliptic_integrals;
 use contact_core::scene::Elastic;
 use quadrature::integrate;
 
-/// Points of the Gauss rule; the integrands are smooth but for a logarithm at full slip.
+/// Points of the Gauss rule; the integrands are smooth, with a logarithm at full slip.
 const NODES: usize = 64;
 
 /// Partial slip under constant normal force and a torsional moment M_z, exact for every nu.

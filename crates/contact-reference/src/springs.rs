@@ -29,7 +29,7 @@ pub struct Springs {
 }
 
 impl Springs {
-    /// `n` unloaded springs on either side, as far as the contact of `largest` reaches.
+    /// `n` unloaded springs on either side, up to the edge of the contact of `largest`.
     pub fn new(largest: Hertz, R: f64, body1: Elastic, body2: Elastic, mu: f64, n: usize) -> Self {
         Self {
             R,
@@ -50,7 +50,7 @@ impl Springs {
 
     /// Goes straight to the forces `W`, `T` \[N\] in `steps` steps and returns the shift \[m\]. The
     /// path starts from `from`, the forces reached before. |T| <= mu W throughout; at the limit
-    /// the shift is that of incipient sliding.
+    /// the shift is the one at incipient sliding.
     pub fn load(&mut self, from: (f64, f64), to: (f64, f64), steps: usize) -> f64 {
         for step in 1..=steps {
             let s = step as f64 / steps as f64;
@@ -92,7 +92,7 @@ impl Springs {
                 * 2.0
                 * self.dx
         };
-        // The limits of the springs add up to mu W but for the last, half-covered spring.
+        // The limits of the springs add up to mu W without the last, half-covered spring.
         let reach = springs.iter().map(|s| s.2).sum::<f64>() * 2.0 * self.dx;
         let T = T.clamp(-reach, reach);
         let move_x = rising_root(|m| force(m) - T, T - force(0.0), &springs);

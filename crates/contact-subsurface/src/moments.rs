@@ -86,7 +86,7 @@ impl Moments {
         }
     }
 
-    /// Calls `f` with the states of the body, with a residual stress that replaces that of the body
+    /// Calls `f` with the states of the body, with a residual stress that replaces the body's
     /// if given.
     pub fn with_states<T>(
         &self,

@@ -9,7 +9,7 @@
 //! S/K = g(x) = x/((1 - y)(3 - y)),  y = (1 - x)^(1/2)         of a torsional couple [2]
 //! ```
 //!
-//! K and F are those of least squares through the secants, so that the form holds for other
+//! K and F follow from least squares through the secants, so that the form holds for other
 //! contacts and coatings as well. How far K moves without the largest changes of the force, its
 //! standard error and the ring, which grows from cell to cell, make its error. Increments in gross
 //! slip have no part in it: there the shift does not depend on the force. K grows like the radius of

@@ -21,7 +21,7 @@ use crate::mesh::{GAUSS_POINT, Mesh};
 
 /// Numbers of an element at a wave number, see [`Reduced`].
 pub(crate) const FACTORS: usize = 23;
-/// Numbers of the surface at a wave number: the inverse stiffness of (v, w), that of u_2.
+/// Numbers of the surface at a wave number: the inverse stiffness of (v, w), and of u_2.
 pub(crate) const TOP: usize = 4;
 
 /// Shape functions of the upper, middle and lower node and their slopes by z at a Gauss point.
@@ -34,8 +34,8 @@ pub(crate) struct Shapes {
 }
 
 impl Shapes {
-    /// At both Gauss points of an element of height h.
-    pub(crate) fn of(h: f64) -> [Self; 2] {
+    /// Shape functions at both Gauss points of an element of height h.
+    pub(crate) fn at_gauss_points(h: f64) -> [Self; 2] {
         [-GAUSS_POINT, GAUSS_POINT].map(|x| Self {
             N: [0.5 * x * (x - 1.0), 1.0 - x * x, 0.5 * x * (x + 1.0)],
             dN: [x - 0.5, -2.0 * x, x + 0.5].map(|slope| slope * 2.0 / h),
@@ -102,7 +102,7 @@ pub(crate) fn eliminate(
     k: f64,
     mut each: impl FnMut(usize, [f64; FACTORS]),
 ) -> [f64; TOP] {
-    let below = mesh.below();
+    let below = mesh.half_space();
     let ([_, mu], nu) = (below.lame(), below.nu);
     let of_half_space = 4.0 * mu * k / (3.0 - 4.0 * nu);
     let (same, other) = (of_half_space * (1.0 - nu), of_half_space * (0.5 - nu));
@@ -167,7 +167,7 @@ fn stiffnesses(h: f64, k: f64, [lambda, mu]: [f64; 2]) -> (Nodes<Square>, Nodes<
         moved: [0.0; 3],
     };
     let stiff = lambda + 2.0 * mu;
-    for Shapes { N, dN, weight } in Shapes::of(h) {
+    for Shapes { N, dN, weight } in Shapes::at_gauss_points(h) {
         for i in 0..3 {
             for j in 0..3 {
                 let (nn, dd) = (weight * k * k * N[i] * N[j], weight * dN[i] * dN[j]);
@@ -192,8 +192,8 @@ fn stiffnesses(h: f64, k: f64, [lambda, mu]: [f64; 2]) -> (Nodes<Square>, Nodes<
     (plane, across)
 }
 
-/// Displacement of the surface at the wave number k \[1/m\] under unit tractions \[m/Pa\]: that of
-/// (v, w) under (i t_1, t_3), `[vv, vw, ww]`, and that of u_2 under t_2.
+/// Displacement of the surface at the wave number k \[1/m\] under unit tractions \[m/Pa\]: displacement of
+/// (v, w) under (i t_1, t_3), `[vv, vw, ww]`, and of u_2 under t_2.
 ///
 /// Of a homogeneous half-space: (1 - nu)/(mu k), -(1 - 2 nu)/(2 mu k), (1 - nu)/(mu k), 1/(mu k).
 pub fn surface_compliance(mesh: &Mesh, k: f64) -> [f64; TOP] {

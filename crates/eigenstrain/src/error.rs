@@ -1,14 +1,14 @@
-//! What is refused.
+//! Refusals of arguments.
 
 /// A value that is not allowed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{key} = {value}: allowed is {allowed}")]
 pub struct Error {
-    /// What is wrong.
+    /// The wrong value.
     pub key: String,
     /// Its value.
     pub value: String,
-    /// What is allowed.
+    /// Allowed values.
     pub allowed: String,
 }
 

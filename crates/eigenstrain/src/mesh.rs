@@ -192,7 +192,7 @@ fn growing(bottoms: &mut Vec<f64>, mut top: f64, end: f64, mut height: f64) -> f
 }
 
 impl Mesh {
-    /// From the edges of the elements: their lower ends \[m\], increasing. The interfaces must be among
+    /// Mesh with the given edges of elements: their lower ends \[m\], increasing. The interfaces must be among
     /// them, and the last one must lie in the substrate or at its upper end.
     pub fn new(cells: Cells, layers: Vec<Layer>, bottoms: Vec<f64>) -> Result<Self, Error> {
         cells.check()?;
@@ -240,7 +240,7 @@ impl Mesh {
         })
     }
 
-    /// With elements of about `fine` \[m\] at the surface and at interfaces, growing with the distance
+    /// Mesh with elements of about `fine` \[m\] at the surface and at interfaces, growing with the distance
     /// from there to `height` \[m\], down to `depth` \[m\]; at least two in each layer that begins there,
     /// and growing ones below: through the layers, and at least down to `reach` \[m\].
     pub fn graded(
@@ -280,7 +280,7 @@ impl Mesh {
         Self::new(cells, layers, bottoms)
     }
 
-    /// With growing elements below the last one, down to `factor` times its depth. Those above stay as they
+    /// Mesh with growing elements below the last one, down to `factor` times its depth. Those above stay as they
     /// are.
     pub fn deepened(self, factor: f64) -> Result<Self, Error> {
         let mut bottoms = self.bottoms.clone();
@@ -346,7 +346,7 @@ impl Mesh {
     }
 
     /// The half-space below the last element.
-    pub(crate) fn below(&self) -> Layer {
+    pub(crate) fn half_space(&self) -> Layer {
         self.layers[self.layers.len() - 1]
     }
 }

@@ -1,4 +1,4 @@
-//! From eigenstrains and tractions to stress and displacement of the surface.
+//! Stress and displacement of the surface from eigenstrains and tractions.
 
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
@@ -9,7 +9,7 @@ use crate::mesh::Mesh;
 use crate::sweep::{Parts, Rows, Scratch, sweep};
 use crate::transform::Transform;
 
-/// What acts on the body.
+/// Loads of the body.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Sources<'a> {
     /// Eigenstrain: for each plane six components, each on the cells, x first.
@@ -18,7 +18,7 @@ pub struct Sources<'a> {
     pub tractions: Option<[&'a [f64]; 3]>,
 }
 
-/// What comes back.
+/// Results.
 #[derive(Debug)]
 pub struct Answer<'a> {
     /// Stress \[Pa\], laid out as the eigenstrain; planes that are not wanted are left as they are.
@@ -27,8 +27,8 @@ pub struct Answer<'a> {
     pub wanted: &'a [bool],
     /// u_x, u_y, u_z of the surface on the cells \[m\], one after the other.
     pub displacement: &'a mut [f64],
-    /// Whether the displacement contains that of the tractions; in plane strain this is relative to a
-    /// point far away, whose distance the cells set. Without, it is that of the eigenstrain.
+    /// Whether the displacement includes the tractions'; in plane strain this is relative to a
+    /// point far away, whose distance the cells set. Without, it is the eigenstrain's alone.
     pub of_tractions: bool,
 }
 

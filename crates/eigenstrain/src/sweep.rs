@@ -35,7 +35,7 @@ impl Scratch {
     }
 }
 
-/// What a sweep reads: transforms of the sources, in rows of one wave number after the other.
+/// Input of a sweep: transforms of the sources, in rows of one wave number after the other.
 #[derive(Clone, Copy)]
 pub(crate) struct Rows<'a> {
     /// Six rows of the polarisation for each plane.
@@ -48,7 +48,7 @@ pub(crate) struct Rows<'a> {
     pub(crate) of_tractions: bool,
     /// Length of a row.
     pub(crate) stride: usize,
-    /// Where the chunk begins in it.
+    /// Begin of the chunk in it.
     pub(crate) from: usize,
 }
 
@@ -88,7 +88,7 @@ impl Rows<'_> {
     }
 }
 
-/// Where the stress of a sweep goes: for each wanted plane six components, then u_x, u_y, u_z.
+/// Output of the stress of a sweep: for each wanted plane six components, then u_x, u_y, u_z.
 pub(crate) type Answers = [Parts];
 
 /// Solves the equations of a chunk: stress on the `wanted` planes and displacement of the surface,
@@ -116,10 +116,10 @@ pub(crate) fn sweep(
     let mut stresses = stresses.chunks_exact_mut(COMPONENTS);
     let lowest = wanted.iter().rposition(|wanted| *wanted);
     for element in 0..lowest.map_or(0, |plane| plane / PLANES_PER_ELEMENT + 1) {
-        let [middle, lower] = below(chunk, element, scratch, &u);
+        let [middle, lower] = lower_nodes(chunk, element, scratch, &u);
         let nodes = [&u, &middle, &lower];
         let lame = mesh.lame(element);
-        let k_shapes = Shapes::of(mesh.height(element));
+        let k_shapes = Shapes::at_gauss_points(mesh.height(element));
         for (side, shapes) in k_shapes.iter().enumerate() {
             let plane = PLANES_PER_ELEMENT * element + side;
             if !wanted[plane] {
@@ -153,7 +153,7 @@ fn of_surface(chunk: &Chunk, right: &Node) -> Node {
     u
 }
 
-/// The pass up: right-hand sides, condensed; returns that of the surface.
+/// The pass up: right-hand sides, condensed; returns the surface's.
 fn up(mesh: &Mesh, chunk: &Chunk, rows: Rows<'_>, scratch: &mut Scratch) -> Node {
     let mut below = ZERO_NODE;
     let lowest = rows.filled.iter().rposition(|filled| *filled);
@@ -163,7 +163,10 @@ fn up(mesh: &Mesh, chunk: &Chunk, rows: Rows<'_>, scratch: &mut Scratch) -> Node
     scratch.middle[sources..].fill(ZERO_NODE);
     for element in (0..sources).rev() {
         let mut f = [ZERO_NODE; 3];
-        for (side, shapes) in Shapes::of(mesh.height(element)).iter().enumerate() {
+        for (side, shapes) in Shapes::at_gauss_points(mesh.height(element))
+            .iter()
+            .enumerate()
+        {
             let plane = PLANES_PER_ELEMENT * element + side;
             if !rows.filled[plane] {
                 continue;
@@ -224,7 +227,7 @@ fn add_tractions(chunk: &Chunk, rows: Rows<'_>, tractions: &[Complex64], right: 
 }
 
 /// The middle and the lower node of an element from its upper one.
-fn below(chunk: &Chunk, element: usize, scratch: &Scratch, upper: &Node) -> [Node; 2] {
+fn lower_nodes(chunk: &Chunk, element: usize, scratch: &Scratch, upper: &Node) -> [Node; 2] {
     let F = &chunk.elements[element];
     let (right, condensed) = (&scratch.right[element], &scratch.middle[element]);
     let (mut middle, mut lower) = (ZERO_NODE, ZERO_NODE);

@@ -1,4 +1,4 @@
-//! From fields on the cells to waves and back: fast transforms, and moments for the integral over
+//! Transforms of fields on the cells to waves and back: fast transforms, and moments for the integral over
 //! small wave numbers.
 
 use std::sync::Arc;
@@ -52,7 +52,7 @@ pub(crate) struct Buffers {
     plane: Vec<Complex64>,
     scratch: Vec<Complex64>,
     moments: Array2<f64>,
-    /// Of all fields: moments along the fast side, and values on the cells.
+    /// Results for all fields: moments along the fast side, and values on the cells.
     along: Array2<f64>,
     dense: Array2<f64>,
     even: Array2<f64>,
@@ -66,7 +66,7 @@ const TOGETHER: usize = 6;
 
 impl Transform {
     pub(crate) fn new(cells: &Cells) -> Self {
-        let periods = Periods::of(cells);
+        let periods = Periods::from_cells(cells);
         let mut real = RealFftPlanner::new();
         let mut complex = FftPlanner::new();
         let mut waves = of_transforms(cells, periods);
@@ -117,7 +117,7 @@ impl Transform {
         }
     }
 
-    /// All waves, those of the fast transforms first.
+    /// All waves, the waves of the fast transforms first.
     pub(crate) fn waves(&self) -> &[Wave] {
         &self.waves
     }
@@ -207,7 +207,7 @@ impl Transform {
             let done = self
                 .forward
                 .process_with_scratch(&mut b.real, &mut b.half, &mut b.scratch);
-            debug_assert!(done.is_ok(), "lengths are those of the plan");
+            debug_assert!(done.is_ok(), "lengths agree with the plan");
             if slow == 1 {
                 to[..half].copy_from_slice(&b.half);
                 return;
@@ -301,7 +301,7 @@ impl Transform {
             let done = self
                 .backward
                 .process_with_scratch(&mut b.half, &mut b.real, &mut b.scratch);
-            debug_assert!(done.is_ok(), "lengths are those of the plan");
+            debug_assert!(done.is_ok(), "lengths agree with the plan");
             values.copy_from_slice(&b.real[..self.fast_cells]);
         }
     }

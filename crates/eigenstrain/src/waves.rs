@@ -21,7 +21,7 @@ use crate::mesh::Cells;
 /// Steepness of the bump b: it leaves out erfc(BUMP/2)/2 of F at k = 0, and images of
 /// exp(-(pi REACH/(2 BUMP))^2) of what it cuts off.
 const BUMP: f64 = 4.8;
-/// Where b ends, over the step of the wave numbers of the fast transforms.
+/// End of b, over the step of the wave numbers of the fast transforms.
 const REACH: f64 = 9.0;
 
 /// A wave of the sums.
@@ -47,7 +47,7 @@ pub(crate) struct Periods {
 }
 
 impl Periods {
-    pub(crate) fn of(cells: &Cells) -> Self {
+    pub(crate) fn from_cells(cells: &Cells) -> Self {
         if cells.plane_strain {
             return Self {
                 fast: smooth(2 * cells.nx, 2),

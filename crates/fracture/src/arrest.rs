@@ -39,7 +39,7 @@ pub struct Arrest {
 impl Curve {
     /// Range of K at R = 0 over its threshold at a length \[m\].
     pub fn over_threshold(&self, threshold: &Threshold, l: f64) -> f64 {
-        threshold.equivalent(self.at(l)) / threshold.at(l)
+        threshold.equivalent(self.at(l)) / threshold.at_length(l)
     }
 
     /// Whether a crack of the length `from` \[m\] grows, and where it stops: at the first length at

@@ -7,7 +7,7 @@
 //! s = M (g, d) + t,
 //! ```
 //!
-//! t those of the body without the crack. Jumps are in Pa m; times 8 pi/E' they are displacements.
+//! t the tractions of the body without the crack. Jumps are in Pa m; times 8 pi/E' they are displacements.
 //! With the pressure p = -s_nn, the shear traction s_tn and the slip m = d - d_0 since the last
 //! instant, Coulomb's law at each point is
 //!
@@ -52,9 +52,9 @@ const ROUNDING: f64 = 1e-14;
 pub enum State {
     /// Apart.
     Open,
-    /// In contact without relative motion since the last instant.
+    /// Contact without relative motion since the last instant.
     Stick,
-    /// In contact and slipping, or without friction.
+    /// Contact with slip, or without friction.
     Slip,
 }
 
@@ -64,7 +64,7 @@ pub(crate) type Signed = (State, i8);
 /// Opening of the faces and the normal traction between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Opening {
-    /// Which points are open.
+    /// Open points.
     pub open: Vec<bool>,
     /// Jump across the faces over the length \[Pa\].
     pub gap: Array1<f64>,
@@ -89,7 +89,7 @@ pub(crate) struct Unsettled {
     pub(crate) at_fault: usize,
 }
 
-/// Where a crack of unit length comes from and what acts on it.
+/// Origin of a crack of unit length, and the loads on it.
 pub(crate) struct Instant<'a> {
     /// Tractions of the body without the crack, normal then shear \[Pa\].
     pub(crate) load: &'a Array1<f64>,

@@ -31,13 +31,13 @@ pub struct Intensity {
     pub error: f64,
 }
 
-/// The system of a path of unit length from x = 0; that of any similar crack follows from it.
+/// The system of a path of unit length from x = 0; the system of any similar crack follows from it.
 #[derive(Debug)]
 pub(crate) struct System {
     pub(crate) rule: Rule,
     /// K over the tractions at the points, K_I and K_II, for unit length: rows normal, then shear.
     weights: [Array1<f64>; 2],
-    /// The same of the rule of three times the step, at every third point.
+    /// Weights of the rule of three times the step, at every third point.
     coarse: [Array1<f64>; 2],
     contact: OnceLock<Result<Contact, Error>>,
 }
@@ -80,7 +80,7 @@ impl Crack {
         Self::with_step(path, step)
     }
 
-    /// The same with a step of the quadrature of one's own: change of ln(distance) to mouth and
+    /// Crack with a given step of the quadrature: change of ln(distance) to mouth and
     /// kinks from point to point, 0.08 and less at flat cracks and sharp kinks by default.
     pub fn with_step(path: Path, step: f64) -> Result<Self, Error> {
         path.check()?;
@@ -143,7 +143,7 @@ impl Crack {
         })
     }
 
-    /// Where the stress of the body without the crack is wanted, from the tip to the mouth; then the
+    /// Points for the stress of the body without the crack, from the tip to the mouth; then the
     /// points beside interfaces.
     pub fn points(&self) -> Vec<Point> {
         let at = |knot: &super::rule::Knot| Point {
@@ -169,7 +169,7 @@ impl Crack {
     }
 
     /// K under the stress at [`Crack::points`], with faces that may pass through each other: K_I <
-    /// 0 says that they would. Linear in the stress.
+    /// 0 means that they would. Linear in the stress.
     pub fn intensity(&self, stress: &[PlaneStress]) -> Result<Intensity, Error> {
         Ok(self.linear(&self.loads(stress)?))
     }

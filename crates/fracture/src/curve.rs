@@ -39,7 +39,7 @@ pub struct Curve {
 const FEWEST_LENGTHS: usize = 4;
 
 impl Curve {
-    /// From lengths \[m\], ascending, and the extremes of K at them.
+    /// Curve through lengths \[m\], ascending, and the extremes of K at them.
     pub fn new(lengths: Vec<f64>, extremes: Vec<Extremes>) -> Result<Self, Error> {
         let count = lengths.len();
         if count != extremes.len() {

@@ -6,7 +6,7 @@ use super::Error;
 /// a and half-length c, `aspect` = a/c in 0 < a/c <= 1; an estimate.
 ///
 /// Ratio of Newman and Raju's K under uniform tension, (1.13 - 0.09 a/c)/sqrt(Q), Q = 1 + 1.464
-/// (a/c)^1.65 (thick body), to that of the straight front, 1.12152. The gradient along the depth is
+/// (a/c)^1.65 (thick body), to the K of the straight front, 1.12152. The gradient along the depth is
 /// in the plane value; that along the front is left out (too high where the stress falls sideways).
 /// The fit itself holds to some 5 %.
 ///

@@ -9,11 +9,11 @@ pub enum Error {
     /// A value is out of its range.
     #[error("{key} = {value}: must be {allowed}")]
     Invalid {
-        /// What is wrong.
+        /// The wrong value.
         key: String,
         /// The value found.
         value: String,
-        /// What is allowed.
+        /// Allowed values.
         allowed: String,
     },
     /// The faces of a crack found no state of opening, stick and slip.
@@ -43,7 +43,7 @@ pub enum Error {
     Singular {
         /// Length of the crack \[m\].
         length: f64,
-        /// What to look at.
+        /// Remedy.
         why: String,
     },
 }

@@ -27,7 +27,7 @@ use super::lu::Lu;
 const STEP: f64 = 0.2;
 /// Range of the logarithm of the distance to the surface, 4 exp(-20).
 const TO_SURFACE: f64 = 20.0;
-/// The same to a tip at the interface, where the density goes with the distance to the power of -s:
+/// Energy release rate of a tip at the interface, where the density goes with the distance to the power of -s:
 /// it takes 1/(1 - s) times the range. g changes by less than 1e-8 from 8 to 20.
 const TO_INTERFACE: f64 = 10.0;
 /// Largest range: exp(-690) is still a number of full precision.
@@ -73,8 +73,8 @@ impl Film {
         })
     }
 
-    /// From Young's modulus \[Pa\] and Poisson's ratio of the film and of what it lies on.
-    pub fn of((E_1, nu_1): (f64, f64), (E_2, nu_2): (f64, f64)) -> Result<Self, Error> {
+    /// Film with Young's modulus \[Pa\] and Poisson's ratio of the film and of what it lies on.
+    pub fn from_moduli((E_1, nu_1): (f64, f64), (E_2, nu_2): (f64, f64)) -> Result<Self, Error> {
         let a = |E: f64, nu: f64| 2.0 * (1.0 + nu) * (1.0 - nu) / E;
         let b = |E: f64, nu: f64| (1.0 + nu) * (1.0 - 2.0 * nu) / E;
         let (a_1, a_2) = (a(E_1, nu_1), a(E_2, nu_2));

@@ -49,7 +49,7 @@ impl Default for Growing {
 /// A tip on the way.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tip {
-    /// Where it is.
+    /// Place of the tip.
     pub at: Point,
     /// K over the cycle.
     pub cycle: Vec<Intensity>,
@@ -128,7 +128,10 @@ pub fn grow<E: From<Error>>(
 ) -> Result<Grown, E> {
     start.check()?;
     if !(growing.to > start.length() && growing.to.is_finite()) {
-        let allowed = format!("above that of the first crack, {:.4e} m", start.length());
+        let allowed = format!(
+            "above the length of the first crack, {:.4e} m",
+            start.length()
+        );
         return Err(Error::invalid("length to grow to", growing.to, allowed).into());
     }
     if !(growing.tolerance > 0.0 && growing.tolerance < 1.0) {

@@ -4,7 +4,7 @@
 //! z > 0, x along the surface, z the depth; tension is positive, lengths are in m, stresses in Pa,
 //! stress intensities in Pa m^0.5.
 //!
-//! A [`Path`] says where a crack runs, a [`Crack`] is that path with the dislocations that a state
+//! A [`Path`] is the line of a crack, a [`Crack`] is that path with the dislocations that a state
 //! of stress puts into it. The stress of the body *without* the crack is asked for at
 //! [`Crack::points`]; [`Crack::intensity`] gives K with the faces free to pass through each other,
 //! [`Faces`] follows a history with faces that touch, without or with friction. [`grow`] finds the

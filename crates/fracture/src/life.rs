@@ -26,7 +26,7 @@ pub struct Rate {
     pub m: f64,
     /// How the threshold enters.
     pub growth: Growth,
-    /// With it the law takes El Haddad's length l + a_0 in place of l: dK sqrt((l + a_0)/l).
+    /// If given, the law takes El Haddad's length l + a_0 in place of l: dK sqrt((l + a_0)/l).
     pub short: bool,
 }
 
@@ -54,7 +54,7 @@ impl Rate {
     }
 
     /// dl/dN \[m/cycle\] at the equivalent range dK and the threshold, both \[Pa m^0.5\].
-    pub fn at(&self, dK: f64, dK_th: f64) -> f64 {
+    pub fn growth_rate(&self, dK: f64, dK_th: f64) -> f64 {
         if dK <= dK_th {
             return 0.0;
         }
@@ -122,9 +122,9 @@ impl Curve {
             } else {
                 1.0
             };
-            rate.at(
+            rate.growth_rate(
                 threshold.equivalent(self.at(l)) * short,
-                threshold.at(l) * short,
+                threshold.at_length(l) * short,
             )
         };
         let between = self

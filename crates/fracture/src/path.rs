@@ -1,4 +1,4 @@
-//! Where a crack runs: legs that meet in kinks, each straight or gently curved.
+//! Line of a crack: legs that meet in kinks, each straight or gently curved.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -171,7 +171,7 @@ impl Path {
         part
     }
 
-    /// Lengths from the mouth at which its pieces end \[m\], ascending, the last that of the tip.
+    /// Lengths from the mouth at which its pieces end \[m\], ascending, the last at the tip.
     pub fn ends(&self) -> Vec<f64> {
         let pieces = self.legs.iter().flat_map(|leg| &leg.pieces);
         let sum = |sum: &mut f64, (length, _): &(f64, f64)| {

@@ -9,7 +9,7 @@
 //! crack.
 //!
 //! Every third dislocation and every third point make the same rule of three times the step; the
-//! difference of the two is the error that is told.
+//! difference of the two is the estimated error.
 
 use num_complex::Complex64;
 
@@ -43,7 +43,7 @@ pub(crate) struct Rule {
     pub(crate) dislocations: Vec<Knot>,
     /// Points from the tip to the mouth; point k lies beyond dislocation k.
     pub(crate) points: Vec<Knot>,
-    /// Length of the leg at the tip over that of the crack.
+    /// Length of the leg at the tip over the length of the crack.
     pub(crate) tip_leg: f64,
     /// The legs from the tip to the mouth.
     pub(crate) stretches: Vec<Stretch>,
@@ -67,7 +67,7 @@ pub(crate) struct Stretch {
 }
 
 /// Step of t that resolves a path: kernels and stresses are analytic in a strip whose half-width is
-/// the angle between crack and surface, or what a kink leaves of 180 degrees.
+/// the angle between crack and surface, or 180 degrees less the kink.
 pub(crate) fn step(path: &Path) -> f64 {
     let first = path.legs.first().map_or(0.0, |leg| leg.start);
     let to_surface = std::f64::consts::FRAC_PI_2 - first.abs();

@@ -77,7 +77,7 @@ impl Threshold {
     }
 
     /// Threshold of a crack of the length `l` \[m\] at R = 0: dK_th sqrt(l/(l + a_0)) \[Pa m^0.5\].
-    pub fn at(&self, l: f64) -> f64 {
+    pub fn at_length(&self, l: f64) -> f64 {
         self.dK_th * (l / (l + self.a_0())).sqrt()
     }
 

@@ -115,7 +115,7 @@ enum Command {
     // The program itself.
     /// Check this installation against closed forms in minutes (needs the Python package)
     Verify(python::Options),
-    /// Say what to cite for a result (needs the Python package)
+    /// Print what to cite for a result (needs the Python package)
     Cite(python::Options),
     /// Write the completions of a shell to the standard output
     Completions {

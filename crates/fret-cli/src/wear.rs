@@ -104,7 +104,7 @@ pub(crate) fn wear(options: &Options) -> Result<(), Failure> {
     to_end(run, store, out, &kept, options.shown())
 }
 
-/// Continues the run of a store. If a scene and its wear are given, they must be those of the
+/// Continues the run of a store. If a scene and its wear are given, they must agree with the
 /// store.
 pub(crate) fn resume(
     out: &Path,
@@ -216,7 +216,7 @@ fn describe_event(event: &Event) -> String {
     match event.kind {
         EventKind::Thinned => format!(
             "fret: after {cycles} cycles body {body} has lost a part of its coatings' thickness that \
-             counts {place_text}: their response is that of the whole thickness"
+             counts {place_text}: their response belongs to the whole thickness"
         ),
         EventKind::WornThrough => format!(
             "fret: after {cycles} cycles coating {} of body {body} is worn through {place_text}; the response \

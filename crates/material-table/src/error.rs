@@ -11,7 +11,7 @@ pub enum Error {
         material: String,
         /// Name of the number.
         key: String,
-        /// What is wrong and what is allowed.
+        /// The wrong value, and allowed values.
         why: String,
     },
     /// There is no family of alloys of this name.
@@ -19,7 +19,7 @@ pub enum Error {
     Family {
         /// The name given.
         name: String,
-        /// Those that there are.
+        /// Existing names.
         allowed: String,
     },
     /// A table of materials does not have its form.
@@ -29,7 +29,7 @@ pub enum Error {
         file: String,
         /// Line, from 1.
         line: usize,
-        /// What is wrong and what is allowed.
+        /// The wrong value, and allowed values.
         message: String,
     },
 }

@@ -22,7 +22,7 @@
 use crate::error::Error;
 use crate::material::{Material, Sourced};
 
-/// What the source of an estimate begins with.
+/// Begin of the source of an estimate.
 pub const MARK: &str = "estimate: ";
 
 /// Cycles at which a fatigue limit is read off a strain-life curve.
@@ -37,7 +37,7 @@ const THRESHOLD_OF_MODULUS: f64 = 5.8e-5;
 /// A family of alloys: which rules hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
-    /// Steels; those of high alloy and nickel alloys follow the same curve with more scatter.
+    /// Steels; high alloys and nickel alloys follow the same curve with more scatter.
     Steel,
     /// Alloys of aluminium.
     Aluminium,
@@ -68,13 +68,13 @@ impl Family {
         })
     }
 
-    /// Whether the curve is that of steels.
+    /// Whether the curve belongs to steels.
     fn of_steel(self) -> bool {
         matches!(self, Self::Steel | Self::Nickel)
     }
 }
 
-/// The material with the numbers that it lacks, as far as rules give them: a strain-life curve from
+/// The material with the numbers that it lacks, where rules give them: a strain-life curve from
 /// its strength `s_u`, limits from the curve, a threshold.
 pub fn estimated(material: &Material, family: Family) -> Material {
     let mut found = material.clone();

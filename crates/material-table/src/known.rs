@@ -3,7 +3,7 @@
 use crate::estimate;
 use crate::material::Material;
 
-/// What the source of a number from memory begins with.
+/// Begin of the source of a number from memory.
 pub(crate) const RECALLED: &str = "recalled: ";
 
 /// How a number is known, from the best to the worst.
@@ -48,7 +48,7 @@ impl Material {
         kinds.max().unwrap_or(Known::Known)
     }
 
-    /// Which of some numbers are the worst known, and how, in words; `None` where each has a source.
+    /// The worst known of some numbers, and their source, in words; `None` where each has a source.
     pub fn estimate_of(&self, names: &[&str]) -> Option<String> {
         let kind = self.known(names);
         let of = self.numbers.iter();

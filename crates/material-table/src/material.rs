@@ -144,7 +144,7 @@ pub struct Material {
 }
 
 impl Material {
-    /// A material of one's own; every number with its name of [`QUANTITIES`], value and source.
+    /// A material of the user; every number with its name of [`QUANTITIES`], value and source.
     pub fn new(
         name: &str,
         title: &str,

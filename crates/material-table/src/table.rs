@@ -1,4 +1,4 @@
-//! Tables of materials: the one that comes with the program, and those of files.
+//! Tables of materials: the one that comes with the program, and tables in files.
 
 use std::collections::BTreeMap;
 

@@ -12,11 +12,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{key} = {value}: allowed is {allowed}")]
 pub struct Error {
-    /// Where it stands.
+    /// Its place.
     pub key: String,
     /// Its value.
     pub value: f64,
-    /// What is allowed.
+    /// Allowed values.
     pub allowed: &'static str,
 }
 
@@ -55,7 +55,7 @@ pub struct Isotropic {
     pub name: &'static str,
     /// The term.
     pub equation: &'static str,
-    /// Where it is from.
+    /// Its source.
     pub source: &'static str,
     /// Growth of the yield stress at p \[Pa\].
     pub growth: fn(&Plastic, f64) -> f64,
@@ -134,7 +134,7 @@ fn unbounded(grows: bool) -> f64 {
 pub struct Number {
     /// Its name in scene files and arguments.
     pub name: &'static str,
-    /// What is allowed.
+    /// Allowed values.
     pub allowed: &'static str,
     /// Whether it is allowed.
     pub is_allowed: fn(f64) -> bool,
@@ -223,7 +223,7 @@ impl Plastic {
         }
     }
 
-    /// Fails at a number without meaning, and where one of a pair is missing; `key` says where it stands.
+    /// Fails at a number without meaning, and where one of a pair is missing; `key` is its place.
     pub fn check(&self, key: &str) -> Result<(), Error> {
         let fail = |name: String, value: f64, allowed: &'static str| {
             let key = format!("{key}.{name}");

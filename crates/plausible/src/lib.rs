@@ -67,7 +67,7 @@ pub const QUANTITIES: &[Quantity] = &[
         Kind::Stress,
         &["E"],
         (1e3, ANY),
-        "less than that of the softest gel",
+        "less than the softest gel's",
         UNITS,
     ),
     of(
@@ -123,7 +123,7 @@ pub const QUANTITIES: &[Quantity] = &[
         Kind::Length,
         &["thickness"],
         (0.0, 0.1),
-        "more than that of any layer",
+        "more than any layer's",
         UNITS,
     ),
     of(
@@ -380,7 +380,7 @@ pub const QUANTITIES: &[Quantity] = &[
     ),
 ];
 
-/// The row of a key such as `body2.coatings[0].E`, `Archard.k`: that of the longest end that is
+/// The row of a key such as `body2.coatings[0].E`, `Archard.k`: the row of the longest end that is
 /// known.
 pub fn of_key(key: &str) -> Option<&'static Quantity> {
     let parts = key.split('[').enumerate();
@@ -475,10 +475,10 @@ mod tests {
                 1.01 * row.most
             };
             for value in [outside, -outside] {
-                let told = row.doubt("x", value).unwrap();
+                let text = row.doubt("x", value).unwrap();
                 assert!(
-                    told.contains(row.kind.unit()) && told.starts_with("x = "),
-                    "{told}"
+                    text.contains(row.kind.unit()) && text.starts_with("x = "),
+                    "{text}"
                 );
             }
             for value in [0.0, f64::INFINITY, f64::NAN] {

@@ -100,7 +100,7 @@ impl Field<'_> {
         let (shape, numbers) = ((grid.nx, grid.ny), self.as_array());
         if numbers.dim() != shape {
             refuse!(
-                "{name} has the shape {:?}: must be that of the grid, {shape:?}",
+                "{name} has the shape {:?}: must be the grid's, {shape:?}",
                 numbers.dim()
             );
         }
@@ -246,7 +246,7 @@ impl<'py, T: FromPyObjectOwned<'py>> FromPyObject<'_, 'py> for List<T> {
         let mut values = Vec::new();
         for item in value.try_iter()? {
             if values.len() == length {
-                refuse!("says that it has {length} values and gives more");
+                refuse!("has the length {length} and yields more values");
             }
             values
                 .try_reserve(1)

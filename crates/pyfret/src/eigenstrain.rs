@@ -154,7 +154,7 @@ impl EigenstrainOperator {
             }
             Some(given) => {
                 refuse!(
-                    "eigenstrain has the shape {:?}: must be {shape:?}, that of the planes and the grid",
+                    "eigenstrain has the shape {:?}: must be {shape:?}, from the planes and the grid",
                     given.as_array().dim()
                 );
             }

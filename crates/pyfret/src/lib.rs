@@ -1,7 +1,7 @@
 //! Python module `pyfret._core`: the public types of `contact-core` under the same names.
 //!
-//! Nothing is computed here. Each file translates one noun; the documentation of what Python
-//! sees is that of its docstrings and signatures; `tools/stub.py` makes `python/pyfret/_core.pyi` of them.
+//! Nothing is computed here. Each file translates one noun; the documentation for Python
+//! stands in its docstrings and signatures; `tools/stub.py` makes `python/pyfret/_core.pyi` of them.
 
 #![allow(
     rustdoc::broken_intra_doc_links,

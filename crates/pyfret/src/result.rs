@@ -146,7 +146,7 @@ pub(crate) fn solve(
 /// Run a scene in memory; use :func:`pyfret.solve`, which labels what this one gives.
 ///
 /// These are the variables, each with dimensions, values and attributes as xarray takes them, and
-/// what a store says of the run, as JSON.
+/// the attributes of the run, as JSON.
 #[pyfunction]
 #[pyo3(signature = (scene, *, error = false, like = None, on_increment: "Callable[[int, int], object] | None" = None) -> "tuple[dict[str, Variable], str]")]
 pub(crate) fn solve_in_memory(

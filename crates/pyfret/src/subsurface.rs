@@ -163,7 +163,7 @@ impl Subsurface {
         let stick = stick.map(|stick| stick.as_array().to_owned());
         if let Some(stick) = stick.as_ref().filter(|stick| stick.dim() != shape) {
             refuse!(
-                "stick has the shape {:?}: must be that of the grid, {shape:?}",
+                "stick has the shape {:?}: must be the grid's, {shape:?}",
                 stick.dim()
             );
         }

@@ -46,10 +46,10 @@ NUMBERS = "iuf"
 
 def number(value: object, name: str) -> float:
     """A finite number; a TypeError for what is none, a ValueError for one that is missing."""
-    found = plain(value, name)  # type: ignore[arg-type]
-    if found.ndim:
-        raise TypeError(f"{name}: must be a number, not an array of the shape {found.shape}")
-    return float(found)
+    single = plain(value, name)  # type: ignore[arg-type]
+    if single.ndim:
+        raise TypeError(f"{name}: must be a number, not an array of the shape {single.shape}")
+    return float(single)
 
 
 def items(values: Iterable[T], name: str) -> list[T]:
@@ -65,12 +65,12 @@ def items(values: Iterable[T], name: str) -> list[T]:
     if isinstance(values, (str, bytes, Mapping)) or not hasattr(values, "__iter__"):
         raise TypeError(f"{name} = {values!r:.60}: must be a list")
     length = len(values) if isinstance(values, Sized) else None
-    found: list[T] = []
+    collected: list[T] = []
     for value in values:
-        if len(found) == length:
+        if len(collected) == length:
             raise ValueError(f"{name}: has the length {length} and yields more values")
-        found.append(value)
-    return found
+        collected.append(value)
+    return collected
 
 
 def plain(values: ArrayLike, name: str, *, holes: bool = False) -> NDArray[np.float64]:
@@ -102,25 +102,25 @@ def numbers(values: ArrayLike, name: str, *, holes: bool = False) -> NDArray[np.
             f"{name} has {np.count_nonzero(hidden)} masked values of {hidden.size}: must have a "
             "number everywhere; leave them out, or fill them"
         )
-    given: Any = values
+    data: Any = values
     if masked:
-        given = np.ma.MaskedArray(values, dtype=float).filled(np.nan)
-    if contains_booleans(given):
+        data = np.ma.MaskedArray(values, dtype=float).filled(np.nan)
+    if contains_booleans(data):
         raise TypeError(f"{name}: True and False are no numbers")
     try:
-        found = np.asarray(given)
-        if found.dtype.kind not in NUMBERS and found.size:
-            kind = "texts or objects" if found.dtype.kind in "OSU" else f"of the type {found.dtype}"
+        array = np.asarray(data)
+        if array.dtype.kind not in NUMBERS and array.size:
+            kind = "texts or objects" if array.dtype.kind in "OSU" else f"of the type {array.dtype}"
             raise TypeError(f"the values are {kind}")
-        found = found.astype(float, copy=False)
+        array = array.astype(float, copy=False)
     except (TypeError, ValueError, OverflowError) as error:
         raise TypeError(f"{name}: must be an array of numbers: {error}") from error
-    bad = np.isinf(found) if holes else ~np.isfinite(found)
+    bad = np.isinf(array) if holes else ~np.isfinite(array)
     if bad.any():
         where = [int(n) for n in np.argwhere(bad)[0]]
         at = f"[{', '.join(map(str, where))}]" if where else ""
-        raise ValueError(f"{name}{at} = {found[tuple(where)]}: must be a finite number")
-    return found
+        raise ValueError(f"{name}{at} = {array[tuple(where)]}: must be a finite number")
+    return array
 
 
 def contains_booleans(values: Any) -> bool:
@@ -149,11 +149,11 @@ def pitch(values: Any, name: str) -> tuple[float | None, float | None]:
     ValueError
         They lie on no even grid.
     """
-    found: list[float | None] = []
+    spacings: list[float | None] = []
     for axis in PLANE:
         at = values.coords[axis].values if axis in labels(values) and axis in values.coords else ()
         if len(at) < 2:
-            found.append(None)
+            spacings.append(None)
             continue
         steps = np.diff(np.sort(plain(at, f"coordinates of {name} along {axis}")))
         step = float(np.mean(steps))
@@ -162,8 +162,8 @@ def pitch(values: Any, name: str) -> tuple[float | None, float | None]:
                 f"{name}: its coordinates along {axis} lie {steps.min():g} to {steps.max():g} m "
                 "apart: must be evenly spaced"
             )
-        found.append(step)
-    return found[0], found[1]
+        spacings.append(step)
+    return spacings[0], spacings[1]
 
 
 def index(values: Any) -> NDArray[Any] | None:
@@ -183,22 +183,22 @@ def together(*, holes: bool = False, **arrays: ArrayLike) -> tuple[NDArray[np.fl
     Where several have labels, their dimensions and their indices must be the same: nothing is
     paired by place that has a name. With `holes` rows with a missing value are left out.
     """
-    found = {name: plain(values, name, holes=holes).ravel() for name, values in arrays.items()}
-    first, *others = found
+    columns = {name: plain(values, name, holes=holes).ravel() for name, values in arrays.items()}
+    first, *others = columns
     for other in others:
-        if found[other].size != found[first].size:
-            sizes = f"{found[first].size} values of {first} and {found[other].size} of {other}"
+        if columns[other].size != columns[first].size:
+            sizes = f"{columns[first].size} values of {first} and {columns[other].size} of {other}"
             raise ValueError(f"{sizes}: must be as many")
-    named = [(name, labels(values), index(values)) for name, values in arrays.items()]
-    known = [(name, axes, at) for name, axes, at in named if axes]
-    for (one, axes, at), (other, other_axes, other_at) in pairwise(known):
+    indices = [(name, labels(values), index(values)) for name, values in arrays.items()]
+    labelled = [(name, axes, at) for name, axes, at in indices if axes]
+    for (first_name, axes, at), (other, other_axes, other_at) in pairwise(labelled):
         unlike = at is not None and other_at is not None and not np.array_equal(at, other_at)
         if axes != other_axes or unlike:
             raise ValueError(
-                f"{one} and {other} have other labels, along {axes[0]} and {other_axes[0]}: "
+                f"{first_name} and {other} have other labels, along {axes[0]} and {other_axes[0]}: "
                 "must belong to the same points in the same order"
             )
-    rows = np.stack(list(found.values()))
+    rows = np.stack(list(columns.values()))
     whole = ~np.isnan(rows).any(axis=0)
     return tuple(rows[:, whole])
 
@@ -254,10 +254,10 @@ def histories(
     axes = labels(stress)
     coords: dict[Hashable, Any] = {}
     dims: tuple[Hashable, ...] | None = None
-    given: Any = stress
+    data: Any = stress
     if axes:
-        given, dims, coords = in_order(given, name, components)
-    values = numbers(given, name)
+        data, dims, coords = in_order(data, name, components)
+    values = numbers(data, name)
     if values.ndim < 2 or values.shape[-1] != len(COMPONENTS):
         raise ValueError(
             f"{name} has the shape {values.shape}: must be (time, ..., 6), "
@@ -275,25 +275,25 @@ def in_order(
     """A labelled history as (time, ..., component), names and coordinates of its points."""
     axes = labels(stress)
     times = [axis for axis in axes if axis in TIMES]
-    named = "component" in getattr(stress, "coords", {})
-    if len(times) != 1 or "component" not in axes or not named:
+    has_names = "component" in getattr(stress, "coords", {})
+    if len(times) != 1 or "component" not in axes or not has_names:
         raise ValueError(
             f"{name} has the axes {', '.join(map(str, axes))}: must have one of time "
             f"({', '.join(TIMES)}) and `component` with the names {', '.join(components)}; or give "
             f"{name}.values of the shape (time, ..., 6)"
         )
-    here = [str(c) for c in stress.coords["component"].values]
-    if sorted(here) != sorted(components):
+    present = [str(c) for c in stress.coords["component"].values]
+    if sorted(present) != sorted(components):
         raise ValueError(
-            f"{name} has the components {', '.join(here)}: must be {', '.join(components)}"
+            f"{name} has the components {', '.join(present)}: must be {', '.join(components)}"
         )
     others = tuple(axis for axis in axes if axis not in (times[0], "component"))
     ordered = stress.transpose(times[0], *others, "component")
-    ordered = ordered.isel(component=[here.index(c) for c in components])
+    ordered = ordered.isel(component=[present.index(c) for c in components])
     coords = {
-        key: of
-        for key, of in stress.coords.items()
-        if set(of.dims) <= set(others) and key not in axes
+        key: coordinate
+        for key, coordinate in stress.coords.items()
+        if set(coordinate.dims) <= set(others) and key not in axes
     }
     coords |= {axis: stress.coords[axis] for axis in others if axis in stress.coords}
     return ordered.values, others, coords

@@ -84,8 +84,8 @@ def dataset_attribute(self: Any, name: str) -> Any:
     AttributeError
         There is none; the message has the nearest name.
     """
-    own = name.startswith("_") or any(name in vars(base) for base in type(self).__mro__)
-    if own:
+    is_internal = name.startswith("_") or any(name in vars(base) for base in type(self).__mro__)
+    if is_internal:
         missing_attribute(self, name)
     dataset = self.dataset
     if name in dataset.variables:

@@ -71,7 +71,9 @@ def is_estimate(values: xr.DataArray) -> bool:
 def span(table: xr.Dataset, name: str) -> str:
     """The least and the largest value of a number."""
     values = table[name].values
-    ends = [np.unravel_index(int(of(values)), values.shape) for of in (np.nanargmin, np.nanargmax)]
+    ends = [
+        np.unravel_index(int(find(values)), values.shape) for find in (np.nanargmin, np.nanargmax)
+    ]
     low, high = (shown(table, name, at) for at in ends)
     if low.startswith(ABOUT) and high.startswith(ABOUT):
         high = high.removeprefix(ABOUT)
@@ -87,10 +89,10 @@ def known_to(table: xr.Dataset, name: str) -> str:
     if ends is None:
         return "estimate" if is_estimate(table[name]) else ""
     low, high = (end.values.astype(float) for end in ends)
-    known = np.isfinite(values) & np.isfinite(low) & np.isfinite(high)
-    if not known.any():
+    finite = np.isfinite(values) & np.isfinite(low) & np.isfinite(high)
+    if not finite.any():
         return "estimate"
-    values, low, high = values[known], low[known], high[known]
+    values, low, high = values[finite], low[finite], high[finite]
     if (low > 0.0).all():
         factor = float(np.maximum(high / values, values / low).max())
         if factor > FACTOR:

@@ -55,15 +55,17 @@ def columns_of(dataset: xr.Dataset, rows: Sequence[str] | None = None) -> dict[s
     over = [str(d) for d in (first.dims if rows is None else rows) if d != AXIS]
     shape = [dataset.sizes[d] for d in over]
     columns = {}
-    for name, of in [*dataset.coords.items(), *dataset.data_vars.items()]:
+    for name, variable in [*dataset.coords.items(), *dataset.data_vars.items()]:
         # A number of the whole is no column, but the place of a section is.
-        if name in dataset.data_vars and not of.dims:
+        if name in dataset.data_vars and not variable.dims:
             continue
-        if not set(of.dims) <= {*over, AXIS} or of.dims == (AXIS,):
+        if not set(variable.dims) <= {*over, AXIS} or variable.dims == (AXIS,):
             continue
-        parts = {f"{name}": of}
-        if AXIS in of.dims:
-            parts = {f"{name}_{at}": of.sel({AXIS: at}, drop=True) for at in of[AXIS].values}
+        parts = {f"{name}": variable}
+        if AXIS in variable.dims:
+            parts = {
+                f"{name}_{at}": variable.sel({AXIS: at}, drop=True) for at in variable[AXIS].values
+            }
         for part, values in parts.items():
             absent = [d for d in over if d not in values.dims]
             whole = values.expand_dims(absent).transpose(*over).values

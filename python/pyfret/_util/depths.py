@@ -30,8 +30,8 @@ def stretched(borders: NDArray[np.float64]) -> NDArray[np.float64]:
     shares = np.diff(borders) / (borders[-1] - borders[0])
     least = min(LEAST, 0.8 / shares.size)
     thin = shares < least
-    rest = 1.0 - least * np.count_nonzero(thin)
-    shares = np.where(thin, least, rest * shares / max(shares[~thin].sum(), 1e-300))
+    remainder = 1.0 - least * np.count_nonzero(thin)
+    shares = np.where(thin, least, remainder * shares / max(shares[~thin].sum(), 1e-300))
     return np.concatenate(([0.0], np.cumsum(shares)))
 
 

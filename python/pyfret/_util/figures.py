@@ -43,7 +43,7 @@ def load_figures() -> ModuleType:
 def first_types(function: Callable[..., Any]) -> set[str]:
     """The types of the first argument of a function, as they are written."""
     written = next(iter(getattr(function, "__annotations__", {}).values()), "")
-    return {of.strip() for of in str(written).split("|")}
+    return {part.strip() for part in str(written).split("|")}
 
 
 def figures_of(kind: type) -> list[str]:
@@ -54,8 +54,8 @@ def figures_of(kind: type) -> list[str]:
     """
     plot = load_figures()
     whole = next(iter(getattr(plot, kind.figure).__annotations__.values()))  # type: ignore[attr-defined]
-    own = {of.__name__ for of in kind.__mro__} | {str(whole).split("|")[0].strip()}
-    return [name for name in plot.__all__ if own & first_types(getattr(plot, name))]
+    names = {of.__name__ for of in kind.__mro__} | {str(whole).split("|")[0].strip()}
+    return [name for name in plot.__all__ if names & first_types(getattr(plot, name))]
 
 
 class Figures:

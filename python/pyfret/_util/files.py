@@ -29,7 +29,7 @@ from pyfret._util.stores import check_heads, check_store
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["beside", "checked", "deflate", "gzip", "is_copy", "opened", "read", "write"]
+__all__ = ["checked", "deflate", "gzip", "is_copy", "opened", "read", "replacement", "write"]
 
 #: Bytes of a NetCDF file beside its numbers, more than.
 MARGIN = 1 << 20
@@ -59,9 +59,9 @@ def plain(value: Any) -> Any:
     if isinstance(value, np.ndarray | np.generic):
         value = value.tolist()
     if isinstance(value, list | tuple):
-        return plain(value[0]) if len(value) == 1 else [plain(one) for one in value]
+        return plain(value[0]) if len(value) == 1 else [plain(item) for item in value]
     if isinstance(value, dict):
-        return {str(key): plain(one) for key, one in value.items()}
+        return {str(key): plain(item) for key, item in value.items()}
     return float(value) if isinstance(value, int | float) else value
 
 
@@ -70,7 +70,7 @@ def content(values: Any) -> bytes:
     array = np.asarray(values)
     if array.dtype.kind in "biuf":
         return np.ascontiguousarray(array, "<f8" if array.dtype.kind == "f" else "<i8").tobytes()
-    return json.dumps([str(one) for one in array.ravel().tolist()]).encode()
+    return json.dumps([str(label) for label in array.ravel().tolist()]).encode()
 
 
 def sums_of(dataset: xr.Dataset, *, numbers: bool) -> dict[str, int]:
@@ -79,14 +79,14 @@ def sums_of(dataset: xr.Dataset, *, numbers: bool) -> dict[str, int]:
     Without `numbers` the units of the variables stand in their labels alone.
     """
     attributes = {k: v for k, v in dataset.attrs.items() if k != SUMS}
-    found = {"": zlib.crc32(json.dumps(plain(attributes), sort_keys=True).encode())}
-    for name, of in dataset.variables.items():
-        head = [list(map(str, of.dims)), list(of.shape), plain(of.attrs)]
+    sums = {"": zlib.crc32(json.dumps(plain(attributes), sort_keys=True).encode())}
+    for name, variable in dataset.variables.items():
+        head = [list(map(str, variable.dims)), list(variable.shape), plain(variable.attrs)]
         sum_of = zlib.crc32(json.dumps(head, sort_keys=True).encode())
-        found[f"{name} labels"] = sum_of
+        sums[f"{name} labels"] = sum_of
         if numbers:
-            found[str(name)] = zlib.crc32(content(of.values), sum_of)
-    return found
+            sums[str(name)] = zlib.crc32(content(variable.values), sum_of)
+    return sums
 
 
 def compare(dataset: xr.Dataset) -> xr.Dataset:
@@ -97,16 +97,16 @@ def compare(dataset: xr.Dataset) -> xr.Dataset:
     ValueError
         Something is not what was written; the message names it.
     """
-    said = dataset.attrs.pop(SUMS, None)
-    if said is None:
+    stored = dataset.attrs.pop(SUMS, None)
+    if stored is None:
         return dataset
     numbers = dataset.nbytes <= COMPARED
-    found = sums_of(dataset.load() if numbers else dataset, numbers=numbers)
-    there = {k: v for k, v in dict(said).items() if numbers or not k or k.endswith(" labels")}
-    wrong = [name for name in {**there, **found} if there.get(name) != found.get(name)]
+    sums = sums_of(dataset.load() if numbers else dataset, numbers=numbers)
+    there = {k: v for k, v in dict(stored).items() if numbers or not k or k.endswith(" labels")}
+    wrong = [name for name in {**there, **sums} if there.get(name) != sums.get(name)]
     if wrong:
-        what = wrong[0].removesuffix(" labels") or "an attribute"
-        raise ValueError(f"{what} is damaged: it is not what was written")
+        subject = wrong[0].removesuffix(" labels") or "an attribute"
+        raise ValueError(f"{subject} is damaged: it is not what was written")
     return dataset
 
 
@@ -123,22 +123,22 @@ def write(
     pyfret or xarray wrote there, and nothing else. The refusal of a place that is not free ends
     with `otherwise`.
     """
-    place = Path(path)
-    restore(place)
-    if place.exists() and not (overwrite and replaceable(place)):
+    target = Path(path)
+    restore(target)
+    if target.exists() and not (overwrite and replaceable(target)):
         raise FileExistsError(
-            f"{place}: is there already"
+            f"{target}: is there already"
             + (
                 ", and is no store or file of results: choose another place"
                 if overwrite
                 else f": choose another place{otherwise}"
             )
         )
-    if place.suffix not in (".zarr", ".nc"):
-        raise ValueError(f"{place}: must end in .zarr or .nc")
+    if target.suffix not in (".zarr", ".nc"):
+        raise ValueError(f"{target}: must end in .zarr or .nc")
     dataset = dataset.assign_attrs({SUMS: sums_of(dataset, numbers=True)})
-    with beside(place) as unfinished:
-        if place.suffix == ".zarr":
+    with replacement(target) as unfinished:
+        if target.suffix == ".zarr":
             encoding = {name: gzip() for name in dataset.variables}
             dataset.to_zarr(unfinished, zarr_format=2, consolidated=True, encoding=encoding)
         else:
@@ -196,7 +196,7 @@ def encoding_of(codec: Any) -> dict[str, Any]:
 
 
 @contextmanager
-def beside(place: Path) -> Iterator[Path]:
+def replacement(place: Path) -> Iterator[Path]:
     """Give a name beside `place`; what is there at the end takes its place, or goes on failure.
 
     A process that is ended between two moves leaves the new folder and the old one, both under
@@ -299,7 +299,9 @@ def read(path: str | os.PathLike[str]) -> xr.Dataset:
         size = len(read_bytes(path))
         dataset = xr.open_dataset(path)
         kinds = {
-            str(of.dtype) for of in dataset.variables.values() if of.dtype.kind not in "biufUS"
+            str(variable.dtype)
+            for variable in dataset.variables.values()
+            if variable.dtype.kind not in "biufUS"
         }
         if kinds - {"object"} or dataset.nbytes > RATIO * size + MARGIN:
             dataset.close()
@@ -335,13 +337,13 @@ def checked(path: str | os.PathLike[str], *, chunks: bool = True) -> None:
 
     `chunks` as in :func:`pyfret._util.stores.check_store`.
     """
-    place = Path(path)
-    restore(place)
-    if not place.exists():
+    target = Path(path)
+    restore(target)
+    if not target.exists():
         raise StoreError(shown(f"{os.fspath(path)}: no such file or folder"))
-    if place.is_dir():
-        check_store(place, chunks=chunks)
-    elif place.suffix != ".nc":
+    if target.is_dir():
+        check_store(target, chunks=chunks)
+    elif target.suffix != ".nc":
         read_bytes(path)
         raise StoreError(shown(f"{os.fspath(path)}: is no result: a folder .zarr, or a file .nc"))
 

@@ -33,12 +33,16 @@ class HoldsArrays(Base):
         """Whether the other one is of the same class with the same fields."""
         if type(other) is not type(self):
             return NotImplemented
-        names = [of.name for of in fields(self) if of.compare]
+        names = [attribute.name for attribute in fields(self) if attribute.compare]
         return all(alike(getattr(self, name), getattr(other, name)) for name in names)
 
     def __repr__(self) -> str:
         """Give the fields, long ones by their size."""
-        shown = (f"{of.name}={short(getattr(self, of.name))}" for of in fields(self) if of.repr)
+        shown = (
+            f"{attribute.name}={short(getattr(self, attribute.name))}"
+            for attribute in fields(self)
+            if attribute.repr
+        )
         return f"{type(self).__name__}({', '.join(shown)})"
 
 

@@ -72,5 +72,5 @@ def check_places(
     if variadic or not keywords or len(values) <= len(positional):
         return None
     first = "".join(f"{name}, " for name in positional if name not in ("self", "cls"))
-    wanted = ", ".join(f"{name}=..." for name in keywords)
-    return TypeError(f"{call} takes arguments by name, {call}({first}{wanted})")
+    example = ", ".join(f"{name}=..." for name in keywords)
+    return TypeError(f"{call} takes arguments by name, {call}({first}{example})")

@@ -103,7 +103,7 @@ MEANT = {
 def meant(name: str, known: Collection[str]) -> list[str]:
     """Those of the names known that a word or a symbol of others means."""
     word = name if len(name) == 1 else name.lower()
-    return [of for of in MEANT.get(word, ()) if of in known]
+    return [synonym for synonym in MEANT.get(word, ()) if synonym in known]
 
 
 def listing(names: Sequence[str]) -> Callable[[], list[str]]:

@@ -57,7 +57,9 @@ def length(value: float) -> str:
     >>> length(0.005), length(2e-6), length(0.0)
     ('5 mm', '2 µm', '0 m')
     """
-    size, unit = next((of for of in LENGTHS if abs(value) >= of[0] * (1 - 1e-9)), LENGTHS[-1])
+    size, unit = next(
+        (entry for entry in LENGTHS if abs(value) >= entry[0] * (1 - 1e-9)), LENGTHS[-1]
+    )
     return f"{in_words(value / size)} {unit}" if value else "0 m"
 
 

@@ -27,14 +27,17 @@ def packed(value: Any, arrays: dict[str, np.ndarray]) -> Any:
     if isinstance(value, Scene):
         return {"scene": value.to_toml()}
     if is_dataclass(value):
-        each = {of.name: packed(getattr(value, of.name), arrays) for of in fields(value)}
-        return {"part": type(value).__name__, "fields": each}
+        attributes = {
+            attribute.name: packed(getattr(value, attribute.name), arrays)
+            for attribute in fields(value)
+        }
+        return {"part": type(value).__name__, "fields": attributes}
     if isinstance(value, tuple):
-        return {"tuple": [packed(one, arrays) for one in value]}
+        return {"tuple": [packed(item, arrays) for item in value]}
     if isinstance(value, list):
-        return [packed(one, arrays) for one in value]
+        return [packed(item, arrays) for item in value]
     if isinstance(value, dict):
-        return {"dict": {key: packed(one, arrays) for key, one in value.items()}}
+        return {"dict": {key: packed(item, arrays) for key, item in value.items()}}
     if value is None or isinstance(value, bool | int | float | str):
         return value
     raise TypeError(f"{value!r:.60}: a file holds numbers, text, and lists and tables of them")
@@ -43,7 +46,7 @@ def packed(value: Any, arrays: dict[str, np.ndarray]) -> Any:
 def unpacked(value: Any, dataset: xr.Dataset, parts: Mapping[str, type]) -> Any:
     """The part of its JSON; only classes of `parts` are made."""
     if isinstance(value, list):
-        return [unpacked(one, dataset, parts) for one in value]
+        return [unpacked(item, dataset, parts) for item in value]
     if not isinstance(value, dict):
         return value
     if "array" in value:
@@ -51,8 +54,8 @@ def unpacked(value: Any, dataset: xr.Dataset, parts: Mapping[str, type]) -> Any:
     if "scene" in value:
         return Scene.from_toml(value["scene"])
     if "tuple" in value:
-        return tuple(unpacked(one, dataset, parts) for one in value["tuple"])
+        return tuple(unpacked(item, dataset, parts) for item in value["tuple"])
     if "dict" in value:
-        return {key: unpacked(one, dataset, parts) for key, one in value["dict"].items()}
-    given = {key: unpacked(one, dataset, parts) for key, one in value["fields"].items()}
-    return parts[value["part"]](**given)
+        return {key: unpacked(item, dataset, parts) for key, item in value["dict"].items()}
+    arguments = {key: unpacked(item, dataset, parts) for key, item in value["fields"].items()}
+    return parts[value["part"]](**arguments)

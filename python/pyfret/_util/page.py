@@ -6,7 +6,7 @@ import base64
 from pathlib import Path
 
 from pyfret._util import theme
-from pyfret._util.files import beside
+from pyfret._util.files import replacement
 from pyfret._util.text import html
 
 __all__ = ["svg_image", "write_page"]
@@ -37,7 +37,7 @@ PAGE = """<!DOCTYPE html>
 def write_page(path: Path, title: str, content: str) -> None:
     """Write a page of a title and of content in HTML; one that is there is replaced."""
     css = theme.css_variables() + LOOKS.read_text(encoding="utf-8")
-    with beside(path) as unfinished:
+    with replacement(path) as unfinished:
         unfinished.write_text(
             PAGE.format(title=html(title), css=css, content=content), encoding="utf-8"
         )

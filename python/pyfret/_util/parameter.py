@@ -127,8 +127,8 @@ def is_object(hint: Any) -> bool:
     """Whether a type is a class of pyfret, or another one that has an entry in the list MADE."""
     if isinstance(hint, Named) or getattr(hint, "__name__", "") in MADE:
         return hint.__name__ in MADE
-    own = isinstance(hint, type) and hint.__module__.partition(".")[0] == "pyfret"
-    return own and not issubclass(hint, (*PLAIN, enum.Enum))
+    is_class_of_pyfret = isinstance(hint, type) and hint.__module__.partition(".")[0] == "pyfret"
+    return is_class_of_pyfret and not issubclass(hint, (*PLAIN, enum.Enum))
 
 
 def is_instance(value: Any, kind: type) -> bool:
@@ -246,8 +246,8 @@ class Parameter:
         if not (text and self.number not in ("text", "count")) and not has_unit(value):
             return value
         try:
-            named = self.unit is not None and self.unit.quantity
-            return self.unit.convert(value) if named else _core.si_of("", value)  # type: ignore[union-attr]
+            with_unit = self.unit is not None and self.unit.quantity
+            return self.unit.convert(value) if with_unit else _core.si_of("", value)  # type: ignore[union-attr]
         except (TypeError, ValueError) as refused:
             raise type(refused)(f"{self.name} = {refused}") from None
 
@@ -274,9 +274,9 @@ class Parameter:
         if isinstance(value, float | np.floating) and math.isnan(value):
             raise ValueError(f"{name} = nan: must be a number")
         if kind == "several" and isinstance(value, Sequence | np.ndarray):
-            found = value if isinstance(value, np.ndarray) else items(value, name)
+            entries = value if isinstance(value, np.ndarray) else items(value, name)
             # Of a material the number is taken, of a layer without one nothing.
-            plain = [item for item in found if item is not None and not self.is_material(item)]
+            plain = [item for item in entries if item is not None and not self.is_material(item)]
             if plain:
                 numbers(plain, name)
         if kind != "text" and isinstance(value, str | bytes):
@@ -341,13 +341,13 @@ class Parameter:
         if not self.objects or any(is_instance(value, kind) for kind in self.objects):
             return
         names = [kind.__name__ for kind in self.objects]
-        wanted = " or ".join(MADE.get(kind, f"of the class {kind}") for kind in names)
+        kinds = " or ".join(MADE.get(kind, f"of the class {kind}") for kind in names)
         hint = ""
         if "Dataset" in names and hasattr(value, "dataset"):
             # A method with the name of the parameter makes its table.
             makes = callable(getattr(value, name, None))
             hint = f", its .{name}()" if makes else ", its .dataset"
-        raise TypeError(f"{name} = {short_repr(value)}: must be {wanted}{hint}")
+        raise TypeError(f"{name} = {short_repr(value)}: must be {kinds}{hint}")
 
 
 def unit_of(hint: Any) -> Unit | None:
@@ -407,8 +407,10 @@ class Signature:
         for name, parameter in self.parameters.items():
             if parameter.kind is parameter.VAR_KEYWORD:
                 options, *marks = typing.get_args(hints.get(name)) or (None,)
-                known = list(options.__annotations__) if Options in marks else None
-                self.keywords = None if known is None else [*(self.keywords or ()), *known]
+                option_names = list(options.__annotations__) if Options in marks else None
+                self.keywords = (
+                    None if option_names is None else [*(self.keywords or ()), *option_names]
+                )
             elif parameter.kind is not parameter.VAR_POSITIONAL and name in hints:
                 self.rules[name] = Parameter(name, hints[name], parameter.default)
             if parameter.kind in NAMED and name != "self" and self.keywords is not None:

@@ -45,7 +45,7 @@ def one_of(known: Iterable[str], name: str, what: str) -> str:
     known = list(known)
     if name in known:
         return name
-    keys = {full(of): of for of in known}
+    keys = {full(name): name for name in known}
     if full(name) in keys:
         return keys[full(name)]
     near = nearest_names(name, known, 1)
@@ -87,21 +87,21 @@ def part(dataset: xr.Dataset, at: Mapping[str, Any]) -> xr.Dataset:
         key = one_of(map(str, dataset.coords), name, "at")
         if key not in dataset.dims:
             raise ValueError(f"at: {key} changes together with others: a sample has no part")
-        here = dataset[key].values
-        wanted = in_si(key, value)
-        if here.dtype.kind in "ifb":
+        values = dataset[key].values
+        target = in_si(key, value)
+        if values.dtype.kind in "ifb":
             try:
-                place = int(np.argmin(np.abs(here - float(wanted))))
+                index = int(np.argmin(np.abs(values - float(target))))
             except (TypeError, ValueError):
                 raise ValueError(f"at: {key} = {value!r:.60}: must be a number") from None
         else:
             # A study keeps texts as a scene file has them.
-            texts = [str(text) for text in here]
-            same = [n for n, text in enumerate(texts) if text in (json.dumps(wanted), wanted)]
+            texts = [str(text) for text in values]
+            same = [n for n, text in enumerate(texts) if text in (json.dumps(target), target)]
             if not same:
                 raise ValueError(f"at: {key} = {value!r:.60}: must be one of {', '.join(texts)}")
-            place = same[0]
-        dataset = dataset.isel({key: place})
+            index = same[0]
+        dataset = dataset.isel({key: index})
     return dataset
 
 

@@ -119,10 +119,10 @@ class Progress:
         letters = WIDTH if wide else WIDTH // 3
         bar = ("=" * round(letters * share)).ljust(letters)
         title = shown(self.title) if wide else shown(self.title)[: WIDTH // 2]
-        left = elapsed * (1 - share) / share if share > 0 else 0.0
+        remaining = elapsed * (1 - share) / share if share > 0 else 0.0
         counts = f"{self.done}/{max(self.total, self.done)}"
         note = f"({shown(self.note)}) " if self.note and wide else ""
-        return f"{title} [{bar}] {counts} {elapsed:.0f} s, {left:.0f} s left {note}"
+        return f"{title} [{bar}] {counts} {elapsed:.0f} s, {remaining:.0f} s left {note}"
 
     def __exit__(
         self,

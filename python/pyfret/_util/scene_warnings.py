@@ -37,13 +37,13 @@ def doubts_of(of: str, /, **numbers: Any) -> list[str]:
     Of lists each number counts, of arrays the largest, of tables the largest of the last column.
     Other values are left out.
     """
-    found = []
+    warnings = []
     for name, given in numbers.items():
         for value in sizes(given):
             doubt = _core.doubt(f"{of}.{name}" if of else name, name, value)
-            if doubt is not None and doubt not in found:
-                found.append(doubt)
-    return found
+            if doubt is not None and doubt not in warnings:
+                warnings.append(doubt)
+    return warnings
 
 
 def doubt_numbers(of: str, /, **numbers: Any) -> None:

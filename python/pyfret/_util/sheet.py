@@ -33,14 +33,14 @@ def sheet(of: Any) -> str:
 def lines(of: Any, before: str = "") -> Iterator[tuple[str, str, str]]:
     """Name, value and meaning of every attribute; a part with a sheet by its name."""
     for name, attribute in inspect.getmembers_static(type(of), inspect.isgetsetdescriptor):
-        found = DOCUMENTED.match(inspect.getdoc(attribute) or "")
-        if name.startswith("_") or found is None:
+        match = DOCUMENTED.match(inspect.getdoc(attribute) or "")
+        if name.startswith("_") or match is None:
             continue
         value = getattr(of, name)
         if getattr(type(value), "__str__", None) is sheet:
             yield from lines(value, f"{before}{name}.")
         else:
-            yield f"{before}{name}", shown(value, found["unit"] or ""), found["meaning"]
+            yield f"{before}{name}", shown(value, match["unit"] or ""), match["meaning"]
 
 
 def shown(value: Any, unit: str) -> str:

@@ -160,8 +160,8 @@ def check_array(of: Mapping[str, Any], where: Path, root: Path, *, chunks: bool)
 def codecs(of: Mapping[str, Any]) -> list[Any]:
     """The codecs that an array names."""
     listed = of.get("codecs") or []
-    named = [of["compressor"]] if of.get("compressor") is not None else []
-    return [*named, *(listed if isinstance(listed, list) else [listed])]
+    codecs = [of["compressor"]] if of.get("compressor") is not None else []
+    return [*codecs, *(listed if isinstance(listed, list) else [listed])]
 
 
 def check_chunks(of: Mapping[str, Any], where: Path, root: Path, limit: int) -> None:
@@ -193,13 +193,13 @@ def check_size(
         if not whole:
             raise Refused(f"{where.name}: has no {what} but {sizes!r}")
     digits = re.search(r"\d+", word)
-    each = max(int(digits[0]) if digits else 1, 1)
+    width = max(int(digits[0]) if digits else 1, 1)
     values, chunk = math.prod(of["shape"]), math.prod(chunks or [1])
     if chunk > LARGEST:
         raise Refused(f"{where.name}: has chunks of {chunk} values: must be {LARGEST} at most")
     if unpacked:
-        check_chunks(of, where, root, chunk * each * (4 if "U" in word else 1))
-    if values * each <= FREE:
+        check_chunks(of, where, root, chunk * width * (4 if "U" in word else 1))
+    if values * width <= FREE:
         return
     inside = where.resolve().is_relative_to(root.resolve()) and where.is_dir()
     files = (
@@ -207,5 +207,5 @@ def check_size(
     )
     if values > files * chunk:
         raise Refused(
-            f"{where.name}: says that it has {values} values, and has {files} files of {chunk} each"
+            f"{where.name}: has {values} values by its shape, but {files} files of {chunk} each"
         )

@@ -14,7 +14,7 @@ import numpy as np
 
 from pyfret._core import Scene, __version__
 from pyfret._util import theme
-from pyfret._util.files import beside
+from pyfret._util.files import replacement
 from pyfret._util.numbers import in_letters
 from pyfret._util.text import html
 from pyfret.citation import sources
@@ -140,7 +140,7 @@ def report(
         **stills(result, wear, crack, threshold),
         plotly=packed(drawing()),
     )
-    with beside(target) as unfinished:
+    with replacement(target) as unfinished:
         unfinished.write_text(page, encoding="utf-8")
 
 

@@ -29,7 +29,7 @@ const AT_ONCE: usize = 24;
 /// The stress below a contact where cracks run, in one plane.
 pub(super) struct Along<'a> {
     pub(super) contact: &'a Prepared,
-    /// Angle of the plane of the cracks about the axis of depth from that of x \[rad\].
+    /// Angle of the plane of the cracks about the axis of depth, from the x axis \[rad\].
     pub(super) azimuth: f64,
     /// Distance of that plane from the axis of depth, to the left of its direction \[m\].
     pub(super) offset: f64,

@@ -15,30 +15,30 @@ pub struct Growth {
     pub x: f64,
     /// Angle of the first crack from the inward normal, positive towards +x \[rad\].
     pub angle: f64,
-    /// Angle of the plane of the crack, about the axis of depth from that of x \[rad\].
+    /// Angle of the plane of the crack, about the axis of depth, from the x axis \[rad\].
     pub azimuth: f64,
     /// Distance of that plane from the axis of depth, to the left of its direction \[m\].
     pub offset: f64,
     /// Length of the first crack \[m\].
     pub start: f64,
-    /// What decides the direction, the length to grow to, the friction of the faces, the tolerance.
+    /// Rules for the direction, the length to grow to, the friction of the faces, the tolerance.
     pub growing: Growing,
 }
 
 /// A grown crack.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grown {
-    /// Tips on the way, that of the first crack first; x is along the plane of the crack.
+    /// Tips on the way, the first crack's first; x is along the plane of the crack.
     pub tips: Vec<Point>,
     /// K over the states with the tip at each.
     pub over: Vec<OverCycle>,
-    /// Distance between the last tip and that of the path with half of the pieces \[m\].
+    /// Distance between the last tip and the tip of the path with half of the pieces \[m\].
     pub error: f64,
     /// Why it ends.
     pub end: End,
 }
 
-/// What ends the growth, of this crate or of the crack.
+/// Error that ends the growth, of this crate or of the crack.
 struct Refused(Error);
 
 impl From<Error> for Refused {

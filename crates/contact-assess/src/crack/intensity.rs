@@ -33,7 +33,7 @@ pub fn refused(error: fracture::Error) -> Error {
 /// A crack of one length over the states.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OverCycle {
-    /// K with faces that touch, in each state. The error has the part of the quadrature and that of
+    /// K with faces that touch, in each state. The error has a part of the quadrature and one of
     /// layers of other materials. The part of the cells is the change of K by tractions on cells twice
     /// as large, the larger change of two pairings: one of them may vanish by chance.
     pub faces: Vec<Intensity>,
@@ -148,7 +148,7 @@ pub(super) fn range_on_line(
 }
 
 /// Relative error of K in the homogeneous half-plane where the materials of the layers differ: with
-/// the largest Dundurs' alpha of an interface and the depth of the tip over that of the interface.
+/// the largest Dundurs' alpha of an interface and the depth of the tip over the interface's.
 fn layered(body: &Body, depth: f64) -> f64 {
     let modulus = |m: contact_core::scene::Elastic| m.E / (1.0 - m.nu * m.nu);
     let below = body.coatings.iter().skip(1).map(|c| c.material);

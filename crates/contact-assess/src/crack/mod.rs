@@ -28,7 +28,7 @@ pub struct Cracks {
     pub angle: f64,
     /// Length \[m\] after which cracks go on at another angle \[rad\] (default: they are straight).
     pub kink: Option<(f64, f64)>,
-    /// Angle of the plane of the cracks about the axis of depth from that of x \[rad\] (default 0);
+    /// Angle of the plane of the cracks about the axis of depth, from the x axis \[rad\] (default 0);
     /// x is the distance from the axis along it.
     pub azimuth: f64,
     /// Distance of that plane from the axis of depth, to the left of its direction \[m\] (default 0).
@@ -72,7 +72,7 @@ impl Cracks {
 /// K of the cracks below a contact under each of its states, one length after the other. The place of
 /// the mouth may be off by the distance `mouth_error` \[m\]: the change of K by it is part of the error.
 ///
-/// K is that of a crack in a homogeneous half-plane under the stress of the layered body. Where
+/// K belongs to a crack in a homogeneous half-plane under the stress of the layered body. Where
 /// layers differ, the error includes the change of K of published partial cracks in films.
 pub fn over_cycle(
     contact: &Prepared,

@@ -2,7 +2,7 @@
 //!
 //! In rounds: the path is run on a coarse grid, the error of every branch estimated (`path_error`),
 //! and a branch whose error is too large gets more increments, by the order with which its error
-//! has fallen. Branches that repeat earlier ones, as those of cycles do, get what these get.
+//! has fallen. Branches that repeat earlier ones, as cycles do, get the same increments.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -44,7 +44,7 @@ const MOST_REFINEMENT: f64 = 4.0;
 /// No other round is needed if the error is at most NEARLY times the one aimed at: NEARLY.0 with an
 /// order from two rounds, NEARLY.1 with the assumed one.
 const NEARLY: (f64, f64) = (3.0, 2.0);
-/// An error above OWN times that of a preceding growth of contact is not inherited from it.
+/// An error above OWN times the error of a preceding growth of contact is not inherited from it.
 const OWN: f64 = 2.0;
 /// Most rounds.
 const MOST_ROUNDS: usize = 8;
@@ -125,7 +125,7 @@ pub fn estimate_path_error(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scen
 /// of second order in them.
 const OF_YIELDING: usize = 12;
 
-/// The increments of bodies that yield: those of elastic bodies, 12 in a branch at least, on the grid of
+/// The increments of bodies that yield: as many as elastic bodies need, 12 in a branch at least, on the grid of
 /// the scene.
 fn choose_for_yielding(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene, Error> {
     let mut chosen = choose_increments(&scene.elastic(), stop)?;

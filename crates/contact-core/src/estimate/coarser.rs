@@ -13,10 +13,10 @@ use crate::plan::Plan;
 use crate::scene::{Grid, PathGrid, RigidMotion, SaveFields, Scene};
 use crate::yielding::{Below, Yielding};
 
-/// Cells of the coarser grids each way, over those of the grid.
+/// Refinement factors of the coarser grids, below 1.
 const PARTS: [f64; 2] = [0.5, 0.375];
-/// Order m of the [`numbers`]: 1.5, between that of thin coatings, whose rim is off by a part of a
-/// cell (1), and that of smooth solutions (2). The rotation has 2: in 28 branches with torsion of
+/// Order m of the [`numbers`]: 1.5, between the order of thin coatings, whose rim is off by a part of a
+/// cell (1), and the order of smooth solutions (2). The rotation has 2: in 28 branches with torsion of
 /// random scenes (`tests/campaigns/error_bars.rs`) true errors are 1.03 times the estimate with m = 2, and
 /// 0.61 times that with m = 1.5. The largest shear lies at the border of the stick zone, which it leaves with
 /// a square root; a cell takes its mean there: 0.5.
@@ -108,7 +108,7 @@ const LEFT: f64 = 1.5;
 
 /// Residual stress below the middle of a grid.
 struct Left {
-    /// Cells of the grid over those of the scene.
+    /// Refinement factor of the grid against the scene's.
     ratio: f64,
     /// The planes of each branch.
     below: Vec<Vec<Below>>,

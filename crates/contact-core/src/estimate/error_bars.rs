@@ -192,7 +192,7 @@ const RETURNED: f64 = 1e-3;
 
 /// Errors of a branch from a finer grid.
 struct Differs {
-    /// Cells of the finer grid each way over those of the grid.
+    /// Refinement factor of the finer grid.
     ratio: f64,
     /// The numbers minus the numbers on the finer grid, each in its unit.
     off: [f64; NUMBERS],

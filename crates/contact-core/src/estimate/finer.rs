@@ -15,7 +15,7 @@ use crate::scene::{Grid, PathGrid, SaveFields, Scene};
 
 /// Most increments of a branch.
 const INCREMENTS: usize = 24;
-/// Cells of the finer grid each way over those of the grid: the first with which it has no more
+/// Refinement factors of the finer grid in order of preference: the first with which it has no more
 /// cells than [`MOST_CELLS`].
 const TIMES: [usize; 2] = [3, 2];
 const MOST_CELLS: usize = 512 * 512;
@@ -24,7 +24,7 @@ const TOLERANCE: f64 = 1e-5;
 
 /// The errors of the grid in the numbers of each branch.
 pub(crate) struct Finer {
-    /// Cells of the finer grid each way over those of the grid.
+    /// Refinement factor of the finer grid.
     pub(crate) ratio: f64,
     /// The numbers minus the numbers on the finer grid, each in its unit.
     pub(crate) off: Vec<[f64; NUMBERS]>,

@@ -31,7 +31,7 @@ const TRIAL_CELLS: usize = 32;
 const FEWEST_CELLS: usize = 192;
 /// Fewest cells of the shorter side of a path grid.
 const FEWEST_PATH_CELLS: usize = 64;
-/// Cells of the grid over those of a path grid, the coarsest first.
+/// Coarsening factors of the path grids, the coarsest first.
 const RATIOS: [usize; 2] = [4, 2];
 /// Order m of the error in the cells of the path grid.
 const ORDER: f64 = 1.5;

@@ -112,7 +112,7 @@ impl TwoRuns {
         self.many.march.remember_on_its_grid()
     }
 
-    /// Solves the first branches of a path, which are the same in both runs but for the grid of
+    /// Solves the first branches of a path, which differ between the runs in the grid of
     /// their path, once.
     pub(crate) fn share(&mut self, path: &LoadPath, branches: usize) -> Result<(), Error> {
         let mut first = path.clone();

@@ -108,7 +108,7 @@ struct Change<'a> {
 }
 
 impl<'a> Change<'a> {
-    /// Interpolation between two states in the same window, from the kept cells of the coarse window to those of
+    /// Interpolation between two states in the same window, from the kept cells of the coarse window to cells of
     /// the fine one.
     fn new(
         now: &'a State,

@@ -10,7 +10,7 @@
 //! ```
 //!
 //! c the radius of the stick zone, B the cubic B-spline of knots at the integers. Over a coating V/x^2
-//! changes sign and bends on the scale of the thickness. Where cells say little of a piece the second
+//! changes sign and bends on the scale of the thickness. Where few cells lie in a piece the second
 //! differences of the a_k are held small (P. H. C. Eilers, B. D. Marx, Stat. Sci. 11 (1996) 89). The grid
 //! of the scene is solved at the end of the branch alone, with V as the displacement that means no slip.
 //!
@@ -38,7 +38,7 @@ use crate::error::Error;
 use crate::plan::Mirror;
 use crate::scene::{Grid, LoadPoint, Scene};
 
-/// m. On 13 random scenes (path on 64 cells, 21 increments) the largest error of the shear, over that of
+/// m. On 13 random scenes (path on 64 cells, 21 increments) the largest error of the shear, over the error of
 /// all increments on 128 cells, is 6.2, 4.8, 2.6 and 33 with 3, 5, 7 and 9
 /// (second differences free).
 const PIECES: usize = 7;
@@ -171,7 +171,7 @@ fn places(scene: &Scene, mirror: Mirror, (nx, ny): (usize, usize)) -> Vec<[f64; 
     x.into_iter().zip(y).map(|(x, y)| [x, y]).collect()
 }
 
-/// Whether the stick zone is large enough to say where the particles of the ring come to stick: with
+/// Whether the stick zone is large enough to predict where the particles of the ring come to stick: with
 /// c = 0.48 a the error is three times the error of the increments.
 pub(super) fn remembers_enough(row: &Increment) -> bool {
     row.contact_area <= 0.0 || row.stick_ratio() > LEAST_STICK * LEAST_STICK

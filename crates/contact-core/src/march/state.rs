@@ -53,7 +53,7 @@ pub struct State {
     /// Change of the loads in the last increment.
     pub(crate) step: Loads,
     /// State of the coarser grid that the path is solved on, if there is one; the other fields are
-    /// then those of the last increment that was solved on the grid of the scene.
+    /// then the ones of the last increment that was solved on the grid of the scene.
     pub(crate) along: Option<Box<Along>>,
     /// Plastic strain of bodies that yield.
     pub yielded: Option<Box<Yielded>>,

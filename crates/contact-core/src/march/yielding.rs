@@ -76,7 +76,7 @@ impl March {
         ended
     }
 
-    /// The increment of bodies that have not yielded before and do not in it: that of elastic bodies.
+    /// The increment of bodies that have not yielded before and do not in it: solved as for elastic bodies.
     fn elastically(&mut self, point: &LoadPoint) -> Result<Option<Increment>, Error> {
         let fresh = |yielded: &Yielded| yielded.bodies.iter().all(|body| body.points.is_empty());
         let Some(before) = self.state.yielded.clone().filter(|yielded| fresh(yielded)) else {

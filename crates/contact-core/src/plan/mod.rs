@@ -137,7 +137,7 @@ impl Plan {
 /// Whether, and why, both bodies have the same coefficients.
 fn compare_bodies(scene: &Scene) -> Result<&'static str, &'static str> {
     if layers(&scene.body1, scene) == layers(&scene.body2, scene) {
-        Ok("those of body 2, which has the same layers")
+        Ok("as in body 2, which has the same layers")
     } else {
         Err("the bodies differ in elasticity")
     }

@@ -297,7 +297,7 @@ impl Scene {
             && (extent > LONG[0] || radius > LONG[1])
         {
             doubts.push(format!(
-                "moduli of at most {stiffest:.3e} Pa, those of gels, on a grid {extent:.3e} m long. Numbers in mm, N and MPa \
+                "moduli of at most {stiffest:.3e} Pa, as of gels, on a grid {extent:.3e} m long. Numbers in mm, N and MPa \
                  are taken as m, N and Pa, and results carry these units; {UNITS}"
             ));
         }

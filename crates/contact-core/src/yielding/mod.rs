@@ -10,8 +10,8 @@
 //! ```
 //!
 //! mixed after Anderson. Both parts are mixed: a displacement that lags behind e is part of the state of
-//! the iteration. The stress is that of `eigenstrain` on a volume grid of its own ([`Volume`]), the
-//! return that of `plasticity`. Where nothing yields one pass is enough, and the contact is that of
+//! the iteration. The stress is computed by `eigenstrain` on a volume grid of its own ([`Volume`]), the
+//! return by `plasticity`. Where nothing yields one pass is enough, and the contact equals the contact of
 //! elastic bodies to the last bit.
 
 mod anderson;
@@ -320,7 +320,7 @@ impl Yielding {
         planes
     }
 
-    /// A state whose residual displacements are those of its plastic strain, of one that has the strain
+    /// A state with the residual displacements of its plastic strain, from one that has the strain
     /// alone.
     pub fn completed(&mut self, state: &Yielded) -> Yielded {
         let bodies = self.bodies.iter_mut().map(|body| {

@@ -30,7 +30,7 @@ const REACH: f64 = 4.0;
 const HEIGHT: f64 = 1.0 / 12.0;
 /// Least and largest height over the side of a cell.
 const HEIGHTS: [f64; 2] = [1.0, 2.0];
-/// Cells that a grown grid has more beyond each side of the contact's, over those of the contact's.
+/// Cells that a grown grid has more beyond each side of the contact's, over the contact's.
 const MARGIN: f64 = 0.25;
 /// Depth of a grown grid over that before.
 const DEEPER: f64 = 1.5;

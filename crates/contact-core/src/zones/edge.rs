@@ -108,7 +108,7 @@ mod tests {
         }
     }
 
-    /// Area over that of the true zone for a level sampled at the centres.
+    /// Area over the area of the true zone for a level sampled at the centres.
     fn area_ratio(n: usize, (a, b): (f64, f64), mirror: Mirror) -> f64 {
         let grid = Grid::centred(2.4, n).expect("a grid");
         let f = mirror.fold(&grid.map(|x, y| 1.0 - (x / a).powi(2) - (y / b).powi(2)));

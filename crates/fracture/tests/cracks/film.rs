@@ -78,7 +78,7 @@ fn channel_and_partial_cracks() {
 
 #[test]
 fn equal_constants_are_no_film() {
-    let film = Film::of((210e9, 0.3), (210e9, 0.3)).expect("a film");
+    let film = Film::from_moduli((210e9, 0.3), (210e9, 0.3)).expect("a film");
     let g = film.channel().expect("g");
     assert!((g - 1.121_522_255_231_f64.powi(2)).abs() < 1e-6, "{g}");
     assert!(Film::new(1.0, 0.0).is_err() && Film::new(0.0, 0.6).is_err());

@@ -1,4 +1,4 @@
-//! From stress to decision: judgement of a section below a contact over a closed cycle.
+//! Decision from stress: judgement of a section below a contact over a closed cycle.
 
 mod below;
 mod criterion;

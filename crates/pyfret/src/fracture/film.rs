@@ -19,7 +19,7 @@ pub(crate) fn ellipse_factor(#[pyo3(from_py_with = number)] aspect: f64) -> Answ
 /// A film on another material: materials of both.
 fn film(film: Elastic, below: Elastic) -> Answer<of_cracks::Film> {
     let pair = |m: Elastic| (m.0.E, m.0.nu);
-    Ok(of_cracks::Film::of(pair(film), pair(below))?)
+    Ok(of_cracks::Film::from_moduli(pair(film), pair(below))?)
 }
 
 /// Factor g of a channel crack in a film; use :func:`pyfret.fracture.channel_release`.

@@ -44,7 +44,10 @@ pub(crate) fn threshold_at(
 ) -> PyResult<(Vec<f64>, f64)> {
     let threshold_law = threshold(threshold_)?;
     Ok((
-        lengths.iter().map(|l| threshold_law.at(*l)).collect(),
+        lengths
+            .iter()
+            .map(|l| threshold_law.at_length(*l))
+            .collect(),
         threshold_law.a_0(),
     ))
 }

@@ -77,7 +77,7 @@ fn together<const N: usize>(places: [(&str, &Numbers<'_>); N]) -> Answer<[ArrayD
         let broadcast = array.broadcast(IxDyn(&shape)).map(|whole| whole.to_owned());
         broadcast.ok_or_else(|| {
             PyValueError::new_err(format!(
-                "{name} has the shape {:?}: must fit that of the other places, {shape:?}",
+                "{name} has the shape {:?}: must fit the shape of the other places, {shape:?}",
                 array.shape()
             ))
         })

@@ -15,7 +15,7 @@ members!(
     ///
     /// ``INCREMENT``: increments done, the same for all cells. ``SLIP``: length of the way that the
     /// cell has slipped [m]. ``DISSIPATED``: energy dissipated per area [J/m^2]. ``CYCLES``: cycles of
-    /// wear done; a path that is run through once has done none. Over jumps of wear each is that of
+    /// wear done; a path that is run through once has done none. Over jumps of wear each is summed over
     /// all cycles so far.
     History: Increment = "INCREMENT", Slip = "SLIP", Dissipated = "DISSIPATED", Cycles = "CYCLES"
 );

@@ -367,7 +367,7 @@ impl LoadPath {
         let increments = match (total, open) {
             (total, 0) => format!("{total} increments"),
             (0, _) => "increments to be chosen".to_owned(),
-            (total, open) => format!("{total} increments, those of {open} branches to be chosen"),
+            (total, open) => format!("{total} increments, more to be chosen in {open} branches"),
         };
         let rig = self.0.rig_stiffness.map_or("", |_| ", through a rig");
         format!("LoadPath({} branches, {increments}{rig})", branches.len())

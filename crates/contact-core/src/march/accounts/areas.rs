@@ -4,7 +4,7 @@
 //! The pressure grows like d^(1/2 + e) with the distance d inwards from the rim, or like d on a
 //! layer thinner than the cells. The shortfall mu p - q . t, t being the direction of the shear in
 //! the slip cells, grows like d^(1/2) from the border of a stick zone that shrinks and like d^(3/2)
-//! from that of one that grows. A power of either, the level f, vanishes linearly at the border:
+//! from the border of one that grows. A power of either, the level f, vanishes linearly at the border:
 //!
 //! ```text
 //! f = b_1 d + b_2 d^2 + ...,   f = p^(2/(1 + 2 e)) or (mu p - q . t)^2,   tan(pi e) = beta q_n/p

@@ -4,7 +4,7 @@
 //! On the old contact (eq. (5)-(8) solved with p = q = 0 in all other cells) the gap of a cell
 //! outside closes by c in the increment, and the cell moves by m relative to the rigid shift. The
 //! ratio m/c depends on the distance of the cell from the edge of the contact, which approaches as
-//! cells enter. While its gap closes by dg the cell moves by (m/c) dg, m/c being that of its
+//! cells enter. While its gap closes by dg the cell moves by (m/c) dg, m/c being the ratio at its
 //! distance at that moment. Before it enters, a cell of gap g moves by
 //!
 //! ```text
@@ -24,7 +24,7 @@ use super::order;
 use super::view::View;
 
 impl KeptContact {
-    /// The motion of each cell outside before its entry \[m\]; of one that does not enter, that of
+    /// The motion of each cell outside before its entry \[m\]; of one that does not enter, in
     /// the whole increment.
     pub(super) fn motion_before_entry(
         &self,

@@ -20,7 +20,7 @@ const LEAST: f64 = 0.5;
 /// S_mn/C_nn = (C_mn/C_nn) (2/pi) arctan(2 (d_m d_n)^(1/2)/r),
 /// ```
 ///
-/// r being their distance and d their distances from the edge. The factor of C_mn is that of the
+/// r being their distance and d their distances from the edge. The factor of C_mn belongs to the
 /// potential of a point charge in the plane of a conducting half-plane (Sommerfeld 1897), exact for
 /// kernels ~ 1/r and used for all others. For m = n, S_nn/C_nn = 1 - 1/(pi d P), P = integral of
 /// 1/r over the cell. In plane strain the image C((d_m^(1/2) + d_n^(1/2))^2) is subtracted from the
@@ -109,7 +109,7 @@ pub(super) mod tests {
         })
     }
 
-    /// The first cells are held: what elimination leaves of the response of the others, up to two
+    /// The first cells are held: then the Schur complement of the others, up to two
     /// away.
     fn off_from_elimination(grid: &Grid, held: usize) -> f64 {
         let kernel = half_space(grid);

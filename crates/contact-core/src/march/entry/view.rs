@@ -21,7 +21,7 @@ const FLAT_EDGE: f64 = 4.0;
 /// ```
 ///
 /// over the contact cells m within the radius, with half of the plane beyond added to S; lengths in
-/// those of a cell, (dx dy)^(1/2) or dx in plane strain, where the power is -5/4. A straight edge
+/// units of a cell, (dx dy)^(1/2) or dx in plane strain, where the power is -5/4. A straight edge
 /// of a continuum at the distance d has S ~ d^(-1/4), which defines d for any edge. Closing and
 /// motion of cells outside are nearly functions of this d, whatever steps the edge makes between
 /// the cells. Power, radius and onset were set on a sphere pressed on a harder coating;

@@ -136,7 +136,7 @@ fn mean_at_onset(
 }
 
 /// A cell that has slipped before: the direction e, the weight w, and the factor 1. b is reduced
-/// where the turn of the last increment, times r or b/a, is larger than that of this one, so that
+/// where the turn of the last increment, times r or b/a, is larger than the turn of this one, so that
 /// the mean direction lies between e_0 and e_1 if the two turns have opposite signs.
 fn mean_of_slipping_cell(
     last: &Interface,

@@ -21,7 +21,7 @@ impl YieldingBody {
     }
 
     /// Elastic energy of the residual stress \[J\] in the last pass, -1/2 int sigma_res : e dV. The
-    /// stress is that of the tractions t, too, whose work on the strain is that on its displacement u[e]
+    /// stress includes the stress of the tractions t, whose work on the strain is their work on its displacement u[e]
     /// (Betti): 1/2 (sum t . u[e] dA - int sigma : e dV). A residual stress s_R before the first load is in
     /// balance without tractions, so that it adds -int s_R : e dV.
     pub(in crate::yielding) fn locked(&self) -> f64 {

@@ -34,7 +34,7 @@ fn slips_of_the_pen_are_told_once() {
     told("body1.E = 210 Pa", |scene| {
         scene.body1.substrate.E = 210.0;
     });
-    told("those of gels", |scene| {
+    told("as of gels", |scene| {
         let mpa = Elastic { E: 210e3, nu: 0.3 };
         (scene.body1.substrate, scene.body2.substrate) = (mpa, mpa);
         scene.body1.shape = Shape::Sphere { R: 5.0 };
