@@ -2,7 +2,7 @@
 
 use contact_core::Error;
 use contact_core::scene::Branch;
-use contact_subsurface::{CycleSource, EigenstressSolver, Moments, Side, Yielding, cycles};
+use contact_subsurface::{CycleSource, EigenstressSolver, Moments, Side, Yielding};
 
 use crate::Store;
 
@@ -156,7 +156,7 @@ fn find_cycle(store: &Store, branches: &[usize], cycle: i64) -> Result<(usize, u
         let increments: usize = path.branches[..=*last].iter().map(Branch::count).sum();
         branches.len() >= increments
     };
-    let finished_cycles: Vec<_> = cycles(path).into_iter().filter(finished).collect();
+    let finished_cycles: Vec<_> = path.cycles().into_iter().filter(finished).collect();
     if finished_cycles.is_empty() {
         return Err(path.no_cycle());
     }

@@ -152,18 +152,13 @@ fn ratio(a: f64, b: f64) -> f64 {
     if b > 0.0 { a / b } else { 0.0 }
 }
 
-/// First and last branch of every whole cycle of a load path, [`LoadPath::cycles`].
-pub fn cycles(path: &LoadPath) -> Vec<(usize, usize)> {
-    path.cycles()
-}
-
 /// The loops of a motion in the cycles of a path that the history contains completely.
 pub fn loops(path: &LoadPath, direction: Direction, history: &[LoopPoint]) -> Vec<Cycle> {
     let points_to = |branch: usize| -> usize {
         let before = path.branches.iter().take(branch);
         before.map(Branch::count).sum()
     };
-    let done = cycles(path).into_iter().filter_map(|(first, last)| {
+    let done = path.cycles().into_iter().filter_map(|(first, last)| {
         let (start, end) = (points_to(first), points_to(last + 1));
         // With the turning point that the cycle starts from, unless that is the unloaded state.
         let curve = history.get(start.saturating_sub(1)..end)?;
@@ -288,19 +283,19 @@ mod tests {
         let path = LoadPath::start()
             .normal(10.0, 1)
             .tangential(&[2.0, -2.0, 2.0, -2.0, 2.0], 10);
-        assert_eq!(cycles(&path), [(2, 3), (4, 5)]);
+        assert_eq!(path.cycles(), [(2, 3), (4, 5)]);
         let repeated = LoadPath::start()
             .normal(1.0, 1)
             .normal(0.0, 1)
             .normal(2.0, 1);
-        assert_eq!(cycles(&repeated), [(0, 1)]);
-        assert!(cycles(&LoadPath::start().normal(1.0, 1)).is_empty());
+        assert_eq!(repeated.cycles(), [(0, 1)]);
+        assert!(LoadPath::start().normal(1.0, 1).cycles().is_empty());
         let held = LoadPath::start().normal(1.0, 1).normal(1.0, 3);
-        assert!(cycles(&held).is_empty());
+        assert!(held.cycles().is_empty());
         let torsion = LoadPath::start()
             .normal(10.0, 1)
             .torsion(&[0.2, -0.2, 0.2], 10);
-        assert_eq!(cycles(&torsion), [(2, 3)]);
+        assert_eq!(torsion.cycles(), [(2, 3)]);
     }
 
     #[test]
@@ -310,19 +305,19 @@ mod tests {
             .into_iter()
             .fold(LoadPath::start().normal(10.0, 1), shifted);
         // The force that was given before the shifts is no end of a cycle of shifts.
-        assert_eq!(cycles(&path), [(2, 3)]);
+        assert_eq!(path.cycles(), [(2, 3)]);
         let lower = |path: LoadPath, by: f64| path.change_to(|l| l.sigma_B = by, 2);
         let upper = |path: LoadPath, by: f64| path.change_to(|l| l.sigma_B1 = by, 2);
         for pulled in [lower, upper] {
             let path = [1e8, -1e8, 1e8]
                 .into_iter()
                 .fold(LoadPath::start().normal(10.0, 1), pulled);
-            assert_eq!(cycles(&path), [(2, 3)]);
+            assert_eq!(path.cycles(), [(2, 3)]);
         }
         let rocking = |path: LoadPath, by: f64| path.change_to(|l| l.given.phi_y = Some(by), 2);
         let path = [1e-4, -1e-4, 0.0]
             .into_iter()
             .fold(LoadPath::start().normal(10.0, 1), rocking);
-        assert_eq!(cycles(&path), [(1, 3)]);
+        assert_eq!(path.cycles(), [(1, 3)]);
     }
 }

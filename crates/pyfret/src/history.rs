@@ -46,7 +46,7 @@ impl Envelope {
         #[pyo3(from_py_with = number)] body_number: u8,
         residual: Profiles,
     ) -> Answer<Self> {
-        let cycles = core::cycles(&path.0);
+        let cycles = path.0.cycles();
         let line = line_if_given(x, y, azimuth)?;
         let along = line.map_or_else(Vec::new, |line| line.places(&grid.0));
         let of_largest = line.unwrap_or(Line::AlongX(0.0));

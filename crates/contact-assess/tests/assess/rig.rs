@@ -15,7 +15,7 @@ use contact_core::scene::{
     Shape,
 };
 use contact_subsurface::{CycleRecorder, CycleSource, note_on_cycle, traction_drift};
-use contact_subsurface::{Line, Side, cycles, default_depths};
+use contact_subsurface::{Line, Side, default_depths};
 use fatigue::{Material, PointResult, Search};
 
 const TITANIUM: Elastic = Elastic { E: 116e9, nu: 0.33 };
@@ -73,7 +73,7 @@ fn material(name: &str, E: f64) -> Material {
 }
 
 fn recorded(scene: &Scene) -> CycleRecorder {
-    let last = *cycles(&scene.path).last().unwrap();
+    let last = *scene.path.cycles().last().unwrap();
     let mut kept = CycleRecorder::new(Side::Body2, last);
     solve(scene, &mut kept).unwrap();
     kept

@@ -10,7 +10,7 @@ use contact_reference::{CattaneoMindlin, hertz};
 use contact_store::{ImageData, StressStore, VolumeSink, write_volume};
 use contact_subsurface::{
     Direction, Envelope, Largest, Line, LoopPoint, Probe, Search, Section, Side, Slices, States,
-    Stream, cycles, depths, find_measure, largest_of_samples, loops,
+    Stream, depths, find_measure, largest_of_samples, loops,
 };
 use ndarray::Array2;
 
@@ -39,7 +39,7 @@ fn loops_are_mindlins() {
         let path = LoadPath::start().normal(W, 1).tangential(&[T, -T, T], 250);
         let scene = scene(64, path);
         let increments = solve(&scene, &mut ()).unwrap();
-        let found = cycles(&scene.path);
+        let found = scene.path.cycles();
         assert_eq!(found, [(2, 3)]);
         let history: Vec<_> = increments
             .iter()
@@ -102,7 +102,7 @@ fn envelope_is_that_of_all_increments() {
     let measures = ["von_mises", "s_xx"].map(|name| *find_measure(name).unwrap());
     let envelope = Envelope {
         measures: measures.to_vec(),
-        cycles: cycles(&scene.path),
+        cycles: scene.path.cycles(),
     };
     let line = Line::AlongX(0.0);
     let mut stream = Stream::new(
@@ -186,7 +186,7 @@ fn planes_stream_as_lines_do_and_the_largest_values_are_known() {
     let line = Line::AlongX(scene.grid.y(row));
     let envelope = || Envelope {
         measures: measures.clone(),
-        cycles: cycles(&scene.path),
+        cycles: scene.path.cycles(),
     };
     let largest = Largest {
         measures: measures.clone(),
