@@ -153,8 +153,9 @@ docs: setup ## the book, warnings are errors: out/book
 	@echo out/book/index.html
 
 # RUSTFLAGS takes the place of those in .cargo/config.toml: a wheel runs on processors without AVX2.
-wheel: $(VENV)/.tools ## a wheel for every processor of this kind, and the source distribution: out/wheels
+wheel: $(VENV)/.tools ## a wheel for every processor of this kind, the sources, and the applications: out/wheels
 	RUSTFLAGS="-C debuginfo=0" CARGO_TARGET_DIR=target/wheel $(BIN)/maturin build --release --locked --strip --sdist --out out/wheels
+	$(PY) -m pip wheel --quiet --no-deps --wheel-dir out/wheels ./apps
 
 wheel-test: wheel ## the wheel in a bare environment: command, README, examples
 	$(PY) tools/wheel_test.py out/wheels

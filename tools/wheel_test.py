@@ -4,7 +4,9 @@
     python tools/wheel_test.py out/wheels --emulate Nehalem   # on a processor without AVX2
 
 Needs the standard library alone. The command, the first example of the README and the examples of
-the folder ``examples`` that need no other run are tried; what takes how long is printed.
+the folder ``examples`` that need no other run are tried; what takes how long is printed. Then the
+applications are installed from ``apps``: without them their names raise an error that names the
+distribution.
 """
 
 from __future__ import annotations
@@ -71,7 +73,7 @@ def smaller(code: str) -> str:
 
 def newest(folder: Path) -> Path:
     """The newest wheel of a folder, or else its newest source distribution."""
-    for pattern in ("*.whl", "*.tar.gz"):
+    for pattern in ("fretting-[0-9]*.whl", "fretting-[0-9]*.tar.gz"):
         found = sorted(folder.glob(pattern), key=lambda path: path.stat().st_mtime)
         if found:
             return found[-1].resolve()
@@ -111,6 +113,21 @@ def check(bare: Bare) -> None:
         sys.exit("the example draws no figure")
 
 
+def check_applications(bare: Bare) -> None:
+    """Use an application before and after its distribution is installed."""
+    code = (
+        "import pyfret as fret\ntry: print(fret.experiments.fouvry2007('TiC') is not None)\n"
+        "except ModuleNotFoundError as error: print(error)"
+    )
+    absent = bare.python("-c", code).strip()
+    if absent != "pyfret.experiments is an application: pip install fretting-apps":
+        sys.exit(f"without fretting-apps: {absent}")
+    quiet = ("-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps")
+    bare.python(*quiet, str(ROOT / "apps"), emulated=False)
+    if (present := bare.python("-c", code).strip()) != "True":
+        sys.exit(f"with fretting-apps: {present}")
+
+
 def main() -> None:
     """Installs and tries."""
     parser = argparse.ArgumentParser(description="Try a wheel in a bare environment.")
@@ -129,6 +146,7 @@ def main() -> None:
         )
         print(f"{package.name}: installed in {time.monotonic() - started:.0f} s")
         check(bare)
+        check_applications(bare)
     finally:
         shutil.rmtree(folder, ignore_errors=True)
     print("all of it works")

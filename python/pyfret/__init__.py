@@ -67,6 +67,7 @@ from pyfret._core import PerRange as PerRange
 from pyfret._core import Spacing as Spacing
 from pyfret._core import __version__ as __version__
 from pyfret._util.attributes import PUBLIC_MODULES
+from pyfret._util.extras import application
 from pyfret._util.figures import register_figures
 from pyfret._util.names import OTHER_NAMES, listing
 from pyfret.contacts import offer as offer_contacts
@@ -170,14 +171,14 @@ register_reader(_read_columns)
 _LATER: dict[str, Callable[[], Any]] = {
     "cite": lambda: import_module("pyfret.citation").cite,
     "compare": lambda: import_module("pyfret.study.compare").compare,
-    "experiments": lambda: import_module("pyfret.experiments"),
-    "explore": lambda: import_module("pyfret.workbench.page").explore,
+    "experiments": lambda: application("pyfret.experiments"),
+    "explore": lambda: application("pyfret.workbench.page").explore,
     "export": lambda: import_module("pyfret.export"),
     "fit": lambda: import_module("pyfret.fit"),
     "open": lambda: import_module("pyfret.opening").open,
     "plot": _load_figures,
     "study": lambda: import_module("pyfret.study"),
-    "verify": lambda: import_module("pyfret.verification").verify,
+    "verify": lambda: application("pyfret.verification").verify,
 }
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 from pyfret import fatigue, fracture
 from pyfret import heat as heating
 from pyfret._util import files
+from pyfret._util.extras import application
 from pyfret.export.write import write as export
 from pyfret.quantities import (
     Angle,
@@ -17,7 +18,6 @@ from pyfret.quantities import (
     as_layers,
     quantities,
 )
-from pyfret.report.page import report
 from pyfret.run import Run
 from pyfret.run.opening import open_dataset
 from pyfret.run.run import one_of
@@ -30,11 +30,15 @@ from pyfret.subsurface.unloaded import Unloaded
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     import xarray as xr
+    from matplotlib.figure import Figure
 
     from pyfret.export.frame import Frame
+    from pyfret.fatigue.judged import Life
+    from pyfret.fracture.growth import Cracks, Threshold
+    from pyfret.wear.result import WearResult
 
 __all__ = ["Result", "open_result"]
 
@@ -55,8 +59,60 @@ class Result(Run, Shows):
     grow_crack = fracture.grow
     temperature = heating.temperature
     summary = summary
-    report = report
     _repr_html_ = run_html
+
+    @quantities
+    def report(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        wear: WearResult | None = None,
+        crack: Cracks | None = None,
+        threshold: Threshold | None = None,
+        life: Life | Sequence[Life] | None = None,
+        figures: Mapping[str, Figure] | None = None,
+    ) -> None:
+        """Write a result as one page for a browser, which needs neither pyfret nor a network.
+
+        The page has the scene, what was left out, and numbers with their error bars. It has the
+        loop, maps and profiles of every increment that kept its fields, and the stress below the
+        last one. It has the sources to cite.
+
+        Parameters
+        ----------
+        path : path
+            File to write, ``.html``; one that is there is replaced.
+        wear : WearResult, optional
+            What many cycles wore off the same bodies.
+        crack : Cracks, optional
+            A crack of :meth:`Result.crack` or :meth:`Result.grow_crack`: its way in the section,
+            K over the cycle.
+        threshold : Threshold, optional
+            Of its material: whether and where the crack stops, Kitagawa and Takahashi's diagram.
+        life : Life or sequence of Life, optional
+            Lives of :meth:`Result.life`, such as one for each criterion: range, worst points and
+            a map.
+        figures : mapping of str to Figure, optional
+            Figures of matplotlib to append, by their captions.
+
+        Raises
+        ------
+        ImportError
+            If a package is missing: ``pip install "fretting[report]" fretting-apps``.
+        ValueError
+            The ending of the file is another, or a threshold is given without a crack. The wear or
+            the crack belongs to other bodies, or has no bodies.
+        """
+        write_page = application("pyfret.report.page").write_page
+        write_page(
+            self,
+            path,
+            wear=wear,
+            crack=crack,
+            threshold=threshold,
+            life=life,
+            figures=figures,
+        )
 
     @quantities
     def at(self, which: Unchecked | None = None, *, t: Unchecked | None = None) -> Snapshot:

@@ -12,12 +12,12 @@ import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pyfret import verification
 from pyfret._cli import compare, crack, damage, explore, export, fit, info, table, threshold
 from pyfret._cli.parser import Parser, added
 from pyfret._cli.printing import print_json, print_message, print_text
 from pyfret._cli.values import FIGURES, ending
 from pyfret._core import __version__
+from pyfret._util.extras import application
 from pyfret._util.numbers import format_number
 from pyfret.citation import cite as citation_text
 from pyfret.citation import sources
@@ -191,7 +191,7 @@ def lives_of(result: Result, options: argparse.Namespace) -> list[Life]:
 
 def verify(options: argparse.Namespace) -> int:
     """Compare with closed forms, a line for every number."""
-    checked = verification.verify()
+    checked = application("pyfret.verification").verify()
     if options.json:
         checks = [
             {

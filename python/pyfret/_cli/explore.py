@@ -6,6 +6,7 @@ import webbrowser
 from typing import TYPE_CHECKING, Any
 
 from pyfret._cli.parser import added
+from pyfret._util.extras import application
 
 if TYPE_CHECKING:
     import argparse
@@ -36,9 +37,7 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Serve the page until Ctrl-C."""
-    from pyfret.workbench.page import open_workbench
-
-    page = open_workbench(options.file, port=options.port)
+    page = application("pyfret.workbench.page").open_workbench(options.file, port=options.port)
     print(f"{page.url} (Ctrl-C ends it)", flush=True)
     if not options.no_browser:
         webbrowser.open(page.url)

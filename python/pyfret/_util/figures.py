@@ -55,7 +55,9 @@ def figures_of(kind: type) -> list[str]:
     plot = load_figures()
     whole = next(iter(getattr(plot, kind.figure).__annotations__.values()))  # type: ignore[attr-defined]
     names = {of.__name__ for of in kind.__mro__} | {str(whole).split("|")[0].strip()}
-    return [name for name in plot.__all__ if names & first_types(getattr(plot, name))]
+    # A figure of an application is imported at its first use, and is of no class.
+    loaded = {name: vars(plot)[name] for name in plot.__all__ if name in vars(plot)}
+    return [name for name, figure in loaded.items() if names & first_types(figure)]
 
 
 class Figures:

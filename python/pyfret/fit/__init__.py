@@ -26,8 +26,7 @@ from pyfret.fit.data import (
     read_loops,
     read_scar,
 )
-from pyfret.fit.outcome import FitResult
-from pyfret.fit.posterior import Posterior
+from pyfret.fit.outcome import FitResult, Posterior
 from pyfret.fit.search import fit
 
 __all__ = [

@@ -24,10 +24,9 @@ if TYPE_CHECKING:
 
     from pyfret._core import Scene
     from pyfret.fit.data import Measured
-    from pyfret.fit.posterior import Posterior
     from pyfret.plot.style import Drawn
 
-__all__ = ["FitResult", "Known"]
+__all__ = ["FitResult", "Known", "Posterior"]
 
 #: Correlation from which two unknowns count as indistinguishable.
 ALIKE = 0.97
@@ -35,6 +34,39 @@ ALIKE = 0.97
 UNRESOLVED = 4.0
 #: Error of the model of the posterior over the noise from which it is reported.
 ROUGH = 0.3
+
+
+@dataclass(frozen=True, eq=False)
+class Posterior(HoldsArrays):
+    """Samples of the unknowns, given the data.
+
+    Attributes
+    ----------
+    samples : dict of str to array
+        Values by the keys of the unknowns; the n-th of all belong together.
+    error : float
+        What the quadratic model of the contact errs by (root mean square, at three solves), over
+        the noise.
+    solves : int
+        Contacts solved for it.
+    """
+
+    samples: dict[str, NDArray[np.float64]]
+    error: float
+    solves: int
+
+    def interval(self, key: str, part: float = 0.95) -> tuple[float, float]:
+        """The values between which that part of the samples lies, as many below as above."""
+        low, high = np.quantile(self.samples[key], [0.5 * (1 - part), 0.5 * (1 + part)])
+        return float(low), float(high)
+
+    def __repr__(self) -> str:
+        """Tell the medians and the 95 % intervals."""
+        intervals = []
+        for key, values in self.samples.items():
+            low, high = self.interval(key)
+            intervals.append(f"{key} = {np.median(values):.4g} [{low:.4g}, {high:.4g}]")
+        return f"Posterior({', '.join(intervals)}; model errs by {self.error:.2g} of the noise)"
 
 
 @dataclass(frozen=True)

@@ -10,19 +10,17 @@ noise is not given, it is unknown as well, with the prior 1/sigma integrated out
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from pyfret._util.extras import needed
-from pyfret._util.holds_arrays import HoldsArrays
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["Posterior", "sampled"]
+__all__ = ["sampled"]
 
 #: |z| of the solves that the model goes through, and largest |z| of one component that is sampled.
 THROUGH, FARTHEST = 2.0, 4.0
@@ -33,39 +31,6 @@ BURN, EVERY = 400, 10
 
 #: What should have been measured over its noise, at unknowns u, all data in a row.
 Solved = Callable[["list[NDArray[np.float64]]"], "list[NDArray[np.float64]]"]
-
-
-@dataclass(frozen=True, eq=False)
-class Posterior(HoldsArrays):
-    """Samples of the unknowns, given the data.
-
-    Attributes
-    ----------
-    samples : dict of str to array
-        Values by the keys of the unknowns; the n-th of all belong together.
-    error : float
-        What the quadratic model of the contact errs by (root mean square, at three solves), over
-        the noise.
-    solves : int
-        Contacts solved for it.
-    """
-
-    samples: dict[str, NDArray[np.float64]]
-    error: float
-    solves: int
-
-    def interval(self, key: str, part: float = 0.95) -> tuple[float, float]:
-        """The values between which that part of the samples lies, as many below as above."""
-        low, high = np.quantile(self.samples[key], [0.5 * (1 - part), 0.5 * (1 + part)])
-        return float(low), float(high)
-
-    def __repr__(self) -> str:
-        """Tell the medians and the 95 % intervals."""
-        intervals = []
-        for key, values in self.samples.items():
-            low, high = self.interval(key)
-            intervals.append(f"{key} = {np.median(values):.4g} [{low:.4g}, {high:.4g}]")
-        return f"Posterior({', '.join(intervals)}; model errs by {self.error:.2g} of the noise)"
 
 
 def monomials(z: NDArray[np.float64]) -> NDArray[np.float64]:

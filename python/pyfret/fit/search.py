@@ -24,11 +24,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._core import Grid, Scene
-from pyfret._util.extras import needed
+from pyfret._util.extras import application, needed
 from pyfret.fit.data import Data
 from pyfret.fit.models import Model, model_of, split
-from pyfret.fit.outcome import FitResult, Known
-from pyfret.fit.posterior import Posterior, sampled
+from pyfret.fit.outcome import FitResult, Known, Posterior
 from pyfret.fit.ranges import SearchRange, ranges
 from pyfret.quantities import quantities
 from pyfret.study.design import with_values
@@ -322,7 +321,7 @@ class Search:
             self.solved(places)
             return [self.weighted(self.known[point], gauges) for point in places]
 
-        samples, error = sampled(
+        samples, error = application("pyfret.fit.posterior").sampled(
             solved,
             np.array(u),
             np.asarray(variance * np.linalg.pinv(jacobian.T @ jacobian)[:n, :n], np.float64),

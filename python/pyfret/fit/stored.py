@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 from pyfret._core import StoreError
 from pyfret._util.packed import unpacked
 from pyfret.fit.data import Indentation, Lives, Loops, Measured, Scar
-from pyfret.fit.outcome import FitResult, Known
-from pyfret.fit.posterior import Posterior
+from pyfret.fit.outcome import FitResult, Known, Posterior
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -7,6 +7,9 @@ of it: ``result.plot.fretting_loop()``. :func:`paper_figures` makes the figures 
 its four runs in one call.
 """
 
+from typing import TYPE_CHECKING, Any
+
+from pyfret._util.extras import application
 from pyfret._util.names import listing
 from pyfret.plot.animation import animate
 from pyfret.plot.comparison import comparison
@@ -32,7 +35,6 @@ from pyfret.plot.loads import (
 )
 from pyfret.plot.maps import pressure_map, shear_streamlines, slip_map, stick_slip
 from pyfret.plot.overview import overview
-from pyfret.plot.paper import paper_figures
 from pyfret.plot.profiles import pressure_profile, shear_profile, shear_profiles
 from pyfret.plot.rough import (
     area_over_load,
@@ -115,3 +117,15 @@ __all__ = [
     "wear_profiles",
 ]
 __dir__ = listing(__all__)
+
+if TYPE_CHECKING:
+    from pyfret.plot import paper as paper
+    from pyfret.plot.paper import paper_figures as paper_figures
+
+
+def __getattr__(name: str) -> Any:
+    """Import the figures of the paper at their first use."""
+    if name not in ("paper", "paper_figures"):
+        raise AttributeError(f"module 'pyfret.plot' has no attribute {name!r}")
+    paper_module = application("pyfret.plot.paper")
+    return paper_module if name == "paper" else paper_module.paper_figures

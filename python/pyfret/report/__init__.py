@@ -5,7 +5,7 @@
 """
 
 from pyfret._util.names import listing
-from pyfret.report.page import report
+from pyfret.report.page import write_page
 
-__all__ = ["report"]
+__all__ = ["write_page"]
 __dir__ = listing(__all__)

@@ -20,7 +20,6 @@ from pyfret._util.text import html
 from pyfret.citation import sources
 from pyfret.fatigue.judged import Life
 from pyfret.fracture.growth import Cracks, Threshold
-from pyfret.quantities import quantities
 from pyfret.report.content import figures as numbers
 from pyfret.report.crack import CrackSection
 from pyfret.run.summary import directions
@@ -38,7 +37,7 @@ if TYPE_CHECKING:
     from pyfret.run import Run
     from pyfret.wear.result import WearResult
 
-__all__ = ["report"]
+__all__ = ["write_page"]
 
 #: Folder of the looks of the page.
 HERE = Path(__file__).parent
@@ -49,8 +48,7 @@ SURFACES = (
 )
 
 
-@quantities
-def report(
+def write_page(
     result: Run,
     path: str | os.PathLike[str],
     *,
@@ -60,38 +58,7 @@ def report(
     life: Life | Sequence[Life] | None = None,
     figures: Mapping[str, Figure] | None = None,
 ) -> None:
-    """Write a result as one page for a browser, which needs neither pyfret nor a network.
-
-    The page has the scene, what was left out, and numbers with their error bars. It has the loop,
-    maps and profiles of every increment that kept its fields, and the stress below the last one. It
-    has the sources to cite.
-
-    Parameters
-    ----------
-    result : Result
-        The run.
-    path : path
-        File to write, ``.html``; one that is there is replaced.
-    wear : WearResult, optional
-        What many cycles wore off the same bodies.
-    crack : Cracks, optional
-        A crack of :meth:`Result.crack` or :meth:`Result.grow_crack`: its way in the section, K over
-        the cycle.
-    threshold : Threshold, optional
-        Of its material: whether and where the crack stops, Kitagawa and Takahashi's diagram.
-    life : Life or sequence of Life, optional
-        Lives of :meth:`Result.life`, such as one for each criterion: range, worst points and a map.
-    figures : mapping of str to Figure, optional
-        Figures of matplotlib to append, by their captions.
-
-    Raises
-    ------
-    ImportError
-        If the package plotly is missing: ``pip install "fretting[report]"``.
-    ValueError
-        The ending of the file is another, or a threshold is given without a crack. The wear or the
-        crack belongs to other bodies, or has no bodies.
-    """
+    """Write the page of :meth:`pyfret.Result.report`."""
     target = Path(path)
     if target.suffix not in (".html", ".htm"):
         raise ValueError(f"{target}: must end in .html")
