@@ -3,17 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pyfret._core import measured_by, si_of, unit_of
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
+from pyfret._util.toml import parse_toml
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -127,6 +122,6 @@ def setting(text: str) -> tuple[str, Any]:
     """A key of a scene file and its value; what is no value of TOML is a text."""
     key, value = pair(text, "--set")
     try:
-        return key, tomllib.loads(f"value = {value}")["value"]
-    except tomllib.TOMLDecodeError:
+        return key, parse_toml(f"value = {value}")["value"]
+    except ValueError:
         return key, value

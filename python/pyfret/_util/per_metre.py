@@ -3,13 +3,9 @@
 from __future__ import annotations
 
 import json
-import sys
 from typing import TYPE_CHECKING
 
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
+from pyfret._util.toml import parse_toml
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -23,7 +19,7 @@ PER_METRE = {"N": "N/m", "N m": "N m/m", "J": "J/m"}
 def of_line_contacts(d: xr.Dataset) -> bool:
     """Whether the stored scene of a study is a line contact on one metre."""
     try:
-        grid = tomllib.loads(json.loads(d.attrs["study"])["scene"])["grid"]
+        grid = parse_toml(json.loads(d.attrs["study"])["scene"])["grid"]
     except (KeyError, ValueError):
         # A function makes its scenes, or it was put together by hand.
         return False

@@ -2,17 +2,11 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pyfret._util.text import read_text
+from pyfret._util.toml import read_toml
 from pyfret.history.load_history import LoadHistory
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -42,10 +36,7 @@ def read_history(
         Values in place of the values of the file, by keys such as ``history.residue``.
     """
     file = Path(scene)
-    try:
-        document = tomllib.loads(read_text(file))
-    except tomllib.TOMLDecodeError as error:
-        raise ValueError(f"{file}: {error}") from error
+    document = read_toml(file)
     for key, value in (changes or {}).items():
         names = key.split(".")
         if names[0] != "history":

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 import re
-import sys
 import warnings
 import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
@@ -25,13 +24,9 @@ from pyfret._util.lazy import xr
 from pyfret._util.parameters import SHORT, in_si, opposite, single
 from pyfret._util.scene_warnings import doubt_numbers, warn
 from pyfret._util.text import read_text
+from pyfret._util.toml import parse_toml
 from pyfret.quantities import quantities
 from pyfret.study.identity import code_checksum
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 __all__ = ["Combine", "Design", "Source", "with_values"]
 
@@ -328,7 +323,7 @@ class Design:
         file_names = {
             v for values in self.parameters.values() for v in values if isinstance(v, str)
         }
-        file_names |= set(iter_texts(tomllib.loads(text)))
+        file_names |= set(iter_texts(parse_toml(text)))
         checksums = {}
         for name in sorted(file_names):
             path = scene.parent / name

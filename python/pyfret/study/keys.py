@@ -3,17 +3,11 @@
 from __future__ import annotations
 
 import difflib
-import sys
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from pyfret._util.text import read_text
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
+from pyfret._util.toml import read_toml
 
 __all__ = ["check_key", "read_document", "store_path"]
 
@@ -29,10 +23,7 @@ def read_document(file: Path, keys: tuple[str, ...], needed: Iterable[str]) -> d
     ValueError
         It is no TOML, a key is unknown or missing, or a file is not named in quotes.
     """
-    try:
-        document = tomllib.loads(read_text(file))
-    except tomllib.TOMLDecodeError as error:
-        raise ValueError(f"{file}: {error}") from error
+    document = read_toml(file)
     for key in document:
         check_key(key, keys, str(file))
     for key in needed:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import sys
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,17 +13,13 @@ from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import length, um
 from pyfret._util.text import shown
+from pyfret._util.toml import parse_toml
 from pyfret.quantities import Length, as_number, quantities
 from pyfret.run.loops import NO_FRICTION, frictionless, loops_of_corners
 from pyfret.saveable import Saveable
 from pyfret.scene.tables import table
 from pyfret.subsurface.line import Line, cut
 from pyfret.wear.cycles import Cycles, RangeOfCycles, reached, spent
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 if TYPE_CHECKING:
     from typing import Literal
@@ -266,7 +261,7 @@ class WearResult(Saveable, Labelled, Figured):
     @property
     def table(self) -> dict[str, Any]:
         """The table ``[wear]`` of a scene file."""
-        return dict(tomllib.loads(self.dataset.attrs["wear"])["wear"])
+        return dict(parse_toml(self.dataset.attrs["wear"])["wear"])
 
     @property
     def debris_kept(self) -> float:

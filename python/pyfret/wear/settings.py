@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any, Literal
 
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
-
 from pyfret._util.arrays import items, plain
 from pyfret._util.keywords import refuse_unknown
+from pyfret._util.toml import parse_toml
 from pyfret.quantities import (
     EnergyWearCoefficient,
     Frequency,
@@ -281,7 +276,7 @@ def read(text: str) -> Wear:
     ValueError
         A law is a function, which no file can hold.
     """
-    table = dict(tomllib.loads(text)["wear"])
+    table = dict(parse_toml(text)["wear"])
     for name, kind in (("air", Air), ("bed", DebrisBed)):
         if name in table:
             table[name] = kind(**table[name])

@@ -3,17 +3,12 @@
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from pyfret import _core
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
+from pyfret._util.toml import parse_toml
 
 if TYPE_CHECKING:
     from pyfret._core import Scene
@@ -115,7 +110,7 @@ class Field:
 
 def parse(scene: Scene) -> dict[str, Any]:
     """Return the tables of the scene file."""
-    return tomllib.loads(scene.to_toml())
+    return parse_toml(scene.to_toml())
 
 
 def make_field(key: str, value: float, scene: Scene) -> Field:
