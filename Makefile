@@ -21,7 +21,7 @@ ablation bench bench-kernels bench-stress demo wear-jumps wheel: export CARGO_IN
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
 .DEFAULT_GOAL := help
-.PHONY: help setup constants ablation largest stub demo figure-13 loads validation quick test test-all stress whole path-errors turned layers criteria error-bars kill wear wear-jumps memory fuzz bars deny check format bench bench-kernels bench-stress bench-answers bench-peers docs wheel wheel-test clean
+.PHONY: help setup constants ablation largest stub demo figure-13 loads validation quick test test-all stress whole path-errors turned layers criteria error-bars kill wear wear-jumps memory fuzz bars deny check format bench bench-kernels bench-stress bench-answers bench-fe bench-growth bench-peers docs wheel wheel-test clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -179,6 +179,12 @@ bench-stress: ## time and memory of the stress on a plane and in a volume
 
 bench-answers: setup ## what answers cost beside the solution, and their errors; the table goes to docs/performance.md
 	$(PY) benches/answers.py --document docs/performance.md
+
+bench-fe: setup ## the coated line contact by CalculiX (package calculix-ccx) and by pyfret; the page goes to docs/validation
+	$(PY) benches/fe.py --document docs/validation
+
+bench-growth: setup ## how the cost of answers grows with cells, increments, cycles, layers; the table goes to docs/performance.md
+	$(PY) benches/growth.py --document docs/performance.md
 
 bench-peers: setup ## side by side with public programs and FFTW: out/peers*
 	$(PY) benches/peers.py --out out

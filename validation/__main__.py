@@ -10,6 +10,7 @@ import numpy as np
 
 import pyfret as fret
 from validation import (
+    coated_line,
     elements,
     experiments,
     finite_elements,
@@ -32,6 +33,7 @@ OTHERS = (
     "kernels",
     "elements",
     "finite_elements",
+    "coated_line",
     "experiments",
     "paper",
     "work_precision",
@@ -77,6 +79,9 @@ def main() -> None:
         others.append(elements.write(out, quick=options.quick))
     if options.only is None or "finite_elements" in options.only:
         others.append(finite_elements.write(out, quick=options.quick))
+        print(others[-1], flush=True)
+    if options.only is None or "coated_line" in options.only:
+        others.append(coated_line.write(out, quick=options.quick))
         print(others[-1], flush=True)
     if options.only is None or "experiments" in options.only:
         others.append(experiments.write(out))
