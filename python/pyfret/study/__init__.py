@@ -9,6 +9,7 @@ the study of the load path for a map of running conditions. ::
 """
 
 from pyfret._util.names import listing
+from pyfret.study.answers import answers
 from pyfret.study.candidate import Candidate
 from pyfret.study.compare import compare
 from pyfret.study.comparison import Comparison
@@ -32,6 +33,7 @@ __all__ = [
     "Study",
     "ThresholdLoad",
     "WornDepth",
+    "answers",
     "arrest_map",
     "compare",
     "fit_limits",

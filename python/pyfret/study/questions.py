@@ -20,6 +20,7 @@ from pyfret.fatigue.cycles import cycle_increments
 from pyfret.run.summary import directions
 from pyfret.study.answer import Answer
 from pyfret.study.measures import Reasoned
+from pyfret.study.stresses import largest_of_sections, sample_section
 from pyfret.wear.runs import solve_until_refused
 
 if TYPE_CHECKING:
@@ -125,26 +126,21 @@ def branch_ends(result: Result) -> list[int]:
 def tension(result: Result, candidate: Candidate, duty: Duty) -> Answered:
     """Find the largest principal stress of the body at the ends of the branches of the cycle."""
     last = candidate.layers - 1
-    numbers: dict[str, Answer] = {}
-    places: dict[str, float] = {}
-    for name, layer in (("tension", None), ("tension_in_substrate", last)):
-        if last == 0 and layer is not None:
-            numbers[name] = numbers["tension"]
-            continue
-        extrema = [
-            result.at(n)
-            .stress(body_number=duty.body_number, residual=candidate.residual)
-            .maximum("s_1", layer=layer)
-            for n in branch_ends(result)
-        ]
-        worst = max(extrema, key=lambda extremum: extremum.value)
-        numbers[name] = Answer.from_error(worst.value, worst.error)
-        if layer is None:
-            places = {
-                "tension_x": worst.x,
-                "tension_z": worst.z,
-                "tension_layer": float(worst.layer),
-            }
+    states = [
+        sample_section(
+            result.at(n).stress(body_number=duty.body_number, residual=candidate.residual)
+        )
+        for n in branch_ends(result)
+    ]
+    worst = largest_of_sections(states, "s_1")
+    numbers = {"tension": Answer.from_error(worst.value, worst.error)}
+    places = {
+        "tension_x": worst.x,
+        "tension_z": worst.z,
+        "tension_layer": float(worst.layer),
+    }
+    in_substrate = worst if worst.layer == last else largest_of_sections(states, "s_1", last)
+    numbers["tension_in_substrate"] = Answer.from_error(in_substrate.value, in_substrate.error)
     return numbers, places
 
 

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     from pyfret.result import Result
     from pyfret.snapshot import Snapshot
+    from pyfret.subsurface.extremum import Extremum
     from pyfret.subsurface.tensor import Stress
 
 __all__ = ["LargestStress", "stress_measure"]
@@ -43,9 +44,13 @@ class SampledState(NamedTuple):
     section: Stress
     borders: tuple[Stress, ...]
 
-    def largest(self, name: str) -> float:
-        """Return the highest sample of a stress, rims of the contact included."""
-        samples = [section.measure(name) for section in (self.section, *self.borders)]
+    def largest(self, name: str, layer: int | None = None) -> float:
+        """Return the highest sample of a stress, rims of the contact included; in a `layer`."""
+        field = self.section.measure(name)
+        if layer is not None:
+            field = field.isel(depth=self.section.dataset.layer.values == layer)
+        borders = self.borders if layer in (None, 0) else ()
+        samples = [field, *(border.measure(name) for border in borders)]
         return max(float(sample.max()) for sample in samples if sample.size)
 
 
@@ -64,8 +69,8 @@ class InterfaceState(NamedTuple):
         """Stress on both sides of the interfaces, for the search of the largest value."""
         return stress_at_interfaces(self.state, body_number=self.body_number)
 
-    def largest(self, name: str) -> float:
-        """Return the highest sample of a stress."""
+    def largest(self, name: str, layer: int | None = None) -> float:
+        """Return the highest sample of a stress; interfaces have no layer."""
         return float(measure(name, self.samples).max())
 
 
@@ -95,11 +100,33 @@ def sample_states(
         ]
         result.shared[section_kind] = (key, at_interfaces)
         return at_interfaces
-    sections = [state.stress(body_number=body_number) for state in states]
-    sampled = [SampledState(below, (below.rims(), below.stick_borders())) for below in sections]
-    if sum(below.dataset.nbytes for below in sections) <= SHARED_SECTIONS:
+    sampled = [sample_section(state.stress(body_number=body_number)) for state in states]
+    if sum(state.section.dataset.nbytes for state in sampled) <= SHARED_SECTIONS:
         result.shared[section_kind] = (key, sampled)
     return sampled
+
+
+def sample_section(section: Stress) -> SampledState:
+    """Sample a section, and the surface where borders of the contact cross it."""
+    return SampledState(section, (section.rims(), section.stick_borders()))
+
+
+def largest_of_sections(
+    states: Sequence[SampledState | InterfaceState], name: str, layer: int | None = None
+) -> Extremum:
+    """Return the largest value of a stress in some states, all sampled before.
+
+    The ascent starts below the state with the highest sample. Where the largest value is farther
+    from that sample than `SECTION_TOLERANCE`, all states are searched.
+    """
+    tops = [state.largest(name, layer) for state in states]
+    highest = int(np.argmax(tops))
+    largest = states[highest].section.maximum(name, layer=layer)
+    if abs(largest.value - tops[highest]) <= SECTION_TOLERANCE * abs(largest.value):
+        return largest
+    # The samples do not show at which increment the largest value is.
+    others = (state.section.maximum(name, layer=layer) for state in states)
+    return max(others, key=lambda extremum: extremum.value)
 
 
 def largest_of_states(
@@ -109,14 +136,7 @@ def largest_of_states(
     states = sample_states(result, name, increments, body_number)
     if not states:
         return NO_ANSWER
-    tops = [state.largest(name) for state in states]
-    highest = int(np.argmax(tops))
-    largest = states[highest].section.maximum(name)
-    if not abs(largest.value - tops[highest]) <= SECTION_TOLERANCE * abs(largest.value):
-        # The samples do not show at which increment the largest value is.
-        largest = max(
-            (state.section.maximum(name) for state in states), key=lambda extremum: extremum.value
-        )
+    largest = largest_of_sections(states, name)
     least = -math.inf if name in SIGNED else 0.0
     return Answer.from_error(largest.value, largest.error, least=least)
 
