@@ -14,6 +14,7 @@ from conftest import ROOT, sphere_on_flat
 from pyfret import fatigue
 from pyfret.history import Spectrum
 from pyfret.history.counting import count_signal, rearranged, turning_points
+from pyfret.history.energy_curve import EnergyCurve
 from pyfret.history.memory import state_weights
 
 ROWS = json.loads((ROOT / "tests/data/vibration/rows.json").read_text())
@@ -313,6 +314,38 @@ def test_a_recording_has_one_clock_and_keeps_it(tmp_path: Path) -> None:
         write(step, size)
         with pytest.raises(ValueError, match="different clocks: must have one"):
             fret.LoadHistory.from_csv(path)
+
+
+@pytest.mark.parametrize("spring", [1e9, 1.0, 0.03])
+@pytest.mark.parametrize("top", [0.9, 1.5, 5.7])
+def test_the_energy_between_loops_is_within_its_bounds(spring: float, top: float) -> None:
+    # A ball in series with a spring; unit force of sliding, unit shift of the ball then.
+    t = 1.0 - np.linspace(1.0, 0.0, 4001) ** 4
+    d = 1.0 - (1.0 - t) ** (2.0 / 3.0)
+    reach = d + t / (1.5 * spring)
+    onset = float(reach[-1])
+
+    def energy(shift: np.ndarray) -> np.ndarray:
+        at = np.interp(shift, reach, d)
+        partial = 8.0 * (at - 0.4 * (1.0 - (1.0 - at) ** 2.5)) - 4.0 * at * (1 - (1 - at) ** 1.5)
+        return partial + 4.0 * np.maximum(shift - onset, 0.0)
+
+    shifts = np.linspace(0.1, 1.0, 500) * top * onset
+    previous = None
+    for count in (8, 16):
+        nodes = top * onset * np.arange(1, count + 1) / count
+        if previous is not None and previous.onset is not None:
+            nodes = np.sort(np.append(nodes[:-1] * count / (count - 1), previous.onset))
+            nodes[-1] = top * onset
+        curve = EnergyCurve(nodes, energy(nodes), nodes > onset, 2.0)
+        difference = np.abs(curve.evaluate(shifts) - energy(shifts))
+        change = np.abs(curve.evaluate(shifts) - curve.every_second().evaluate(shifts))
+        allowed = change + curve.half_width(shifts)
+        assert difference.sum() <= allowed.sum()
+        previous = curve
+    assert float(difference.sum() / energy(shifts).sum()) < 2e-3
+    if top > 1.0:
+        assert curve.onset == pytest.approx(onset, rel=0.03)
 
 
 def test_the_memory_of_a_linear_contact_is_its_load() -> None:

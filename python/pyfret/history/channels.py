@@ -20,6 +20,7 @@ __all__ = [
     "channel_unit",
     "check_channel",
     "counted_channel",
+    "load_of",
     "read_channels",
 ]
 
@@ -30,6 +31,11 @@ Channel: TypeAlias = Literal[
 CHANNELS: tuple[Channel, ...] = get_args(Channel)
 #: Pairs of a load and its motion, of which one alone is given.
 PAIRS = (("T_x", "delta_x"), ("T_y", "delta_y"), ("M_z", "phi_z"))
+
+
+def load_of(name: str) -> str:
+    """Return the load of a channel: the force of a shift, the moment of a twist."""
+    return {motion: load for load, motion in PAIRS}.get(name, name)
 
 
 def check_channel(name: str) -> None:

@@ -1,10 +1,10 @@
 """The table of a history: loops of a few amplitudes, marched once, for any number of counted ones.
 
-The energy of a loop is interpolated over its amplitude, as energy over amplitude^3, and a state by
-the rule of memory (:mod:`pyfret.history.memory`). Both are exact for elastically like bodies under
-a constant normal force, up to the interpolation. For other contacts a grid of means is marched as
-well (:mod:`pyfret.history.mean_grid`). One stretch of the history is marched, too, and the
-difference is the error (:mod:`pyfret.history.stretch`).
+The energy of a loop is interpolated over its amplitude (:mod:`pyfret.history.energy_curve`), and a
+state by the rule of memory (:mod:`pyfret.history.memory`). Both are exact for elastically like
+bodies under a constant normal force, up to the interpolation. For other contacts a grid of means is
+marched as well (:mod:`pyfret.history.mean_grid`). One stretch of the history is marched, too, and
+the difference is the error (:mod:`pyfret.history.stretch`).
 """
 
 from __future__ import annotations
@@ -18,7 +18,9 @@ import numpy as np
 from pyfret import _core
 from pyfret._core import InvalidSceneError, NoConvergenceError, OffGridError
 from pyfret._util.numbers import format_number
+from pyfret.history.channels import load_of
 from pyfret.history.counting import rearranged
+from pyfret.history.energy_curve import EnergyCurve
 from pyfret.history.ladder import Companions, Ladder, check_sliding, follow_channels
 from pyfret.history.load_history import LoadHistory, press
 from pyfret.history.loops import CountedLoops, distinct
@@ -80,6 +82,8 @@ class HistoryTable:
         #: Amplitudes, ascending, and the energy of their loops [J].
         self.amplitudes = ladder.levels[::-1, 0].copy()
         self.energies = self._energies_of(ladder.branches[::-1])
+        #: Energy over the amplitude.
+        self.curve = self._curve_of(run)
         self.check: StretchCheck | None = None
         #: The run on half of the cells along each side.
         self.coarse_run: Run | None = None
@@ -90,6 +94,22 @@ class HistoryTable:
         """Return the energy of ranges of branches, first to last [J]."""
         dissipated = (run or self.run).branches().dissipated.values
         return np.array([float(dissipated[a : b + 1].sum()) for a, b in branches])
+
+    def _curve_of(self, run: Run) -> EnergyCurve:
+        """Return the energy over the amplitude of the loops of a run."""
+        ladder, ends, d = self.ladder, branch_ends(run), run.dataset
+        tops, bottoms = (
+            np.searchsorted(d.increment.values, [ends[branch] for branch in branches[::-1]])
+            for branches in (ladder.tops, ladder.bottoms)
+        )
+        sticks = d["stick_ratio"].values
+        slides = (sticks[tops] == 0.0) & (sticks[bottoms] == 0.0)
+        # Gross slip of loops of smaller ones would be an effect of the cells.
+        slides = np.logical_and.accumulate(slides[::-1])[::-1]
+        force = d[load_of(self.history.channel)].values
+        reach = abs(float(force[tops[-1]] - force[bottoms[-1]]))
+        energies = self._energies_of(ladder.branches[::-1], run)
+        return EnergyCurve(self.amplitudes, energies, slides, reach)
 
     @classmethod
     def build(
@@ -131,9 +151,9 @@ class HistoryTable:
         pressed = marches.run(scene.replace(path=path, save="branches"), "pressed")
         exact = keeps_memory(pressed, companions)
         settling = 0 if is_uncoupled(pressed) else SETTLING
-        table = None
+        table, onset = None, None
         for count in (FEWEST, MOST):
-            levels = table_levels(loops, count)
+            levels = table_levels(loops, count, onset)
             with_means = not exact and not companions.turns and len(levels) > 1
             ladder = Ladder.build(
                 scene, history, levels, companions, settling=settling, with_means=with_means
@@ -142,8 +162,9 @@ class HistoryTable:
                 scene.replace(path=ladder.path, save="branches"), f"{len(levels)}_amplitudes"
             )
             table = cls(scene, history, loops, companions, ladder, run)
-            if len(levels) < count or table.interpolation_error <= tolerance:
+            if len(levels) < count or table.straight_error <= tolerance:
                 break
+            onset = table.curve.onset
         assert table is not None
         if not table.is_exact if check is None else check:
             stretch = Stretch.march(scene, history, loops, companions, marches)
@@ -173,13 +194,13 @@ class HistoryTable:
             return None
 
     @property
-    def every_second(self) -> slice:
+    def _every_second(self) -> slice:
         """Every second amplitude, the largest one among them."""
         return slice((self.amplitudes.size + 1) % 2, None, 2)
 
     def energy(self, amplitude: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the energy of loops of some amplitudes at the mean of the largest one [J]."""
-        return interpolate_energy(self.amplitudes, self.energies, amplitude)
+        return self.curve.evaluate(amplitude)
 
     def energy_of_loops(self, loops: CountedLoops) -> float:
         """Return the energy that loops dissipate, by amplitude and mean [J]."""
@@ -222,14 +243,34 @@ class HistoryTable:
 
     @cached_property
     def interpolation_error(self) -> float:
-        """Difference of the energy to the one by every second amplitude, over the energy."""
+        """Difference of the energy to the one by every second amplitude, over the energy.
+
+        Where gross slip begins between two amplitudes, half of the distance of the bounds counts as
+        well.
+        """
         if self.amplitudes.size < 4 or not self.is_interpolated:
             return 0.0
-        kept, levels = self.every_second, loops_as_levels(self.loops)
-        coarse = interpolate_energy(self.amplitudes[kept], self.energies[kept], levels[:, 0])
-        difference = float((levels[:, 2] * (coarse - self.energy(levels[:, 0]))).sum())
-        # Of a piecewise linear interpolation, half of the distance leaves a quarter of the error.
-        return abs(difference) / max(self.total_energy, 1e-300) / 3.0
+        amplitude, count = loops_as_levels(self.loops)[:, [0, 2]].T
+        unknown = float((count * self.curve.half_width(amplitude)).sum())
+        return self._halving_error(linear=False) + unknown / max(self.total_energy, 1e-300)
+
+    @cached_property
+    def straight_error(self) -> float:
+        """Error of the energy if it were straight between the amplitudes, as states are."""
+        if self.amplitudes.size < 4 or not self.is_interpolated:
+            return 0.0
+        return self._halving_error(linear=True)
+
+    def _halving_error(self, *, linear: bool) -> float:
+        amplitude, count = loops_as_levels(self.loops)[:, [0, 2]].T
+        by_all, by_half = (
+            float((count * curve.evaluate(amplitude, linear=linear)).sum())
+            for curve in (self.curve, self.curve.every_second())
+        )
+        # Half of the distance leaves a quarter of the error of straight pieces. The onset of gross
+        # slip is a singular end of cubic ones, so that the whole change counts.
+        change = abs(by_half - by_all) / max(self.total_energy, 1e-300)
+        return change / 3.0 if linear else change
 
     @cached_property
     def energy_errors(self) -> dict[str, float]:
@@ -242,11 +283,11 @@ class HistoryTable:
         if self.check is not None:
             errors["memory"] = self.check.energy_error
         if self.coarse_run is not None:
-            coarse = self._energies_of(self.ladder.branches[::-1], self.coarse_run)
+            coarse = self._curve_of(self.coarse_run)
             levels = loops_as_levels(self.loops)
             by_coarse, by_fine = (
-                float((levels[:, 2] * interpolate_energy(self.amplitudes, e, levels[:, 0])).sum())
-                for e in (coarse, self.energies)
+                float((levels[:, 2] * curve.evaluate(levels[:, 0])).sum())
+                for curve in (coarse, self.curve)
             )
             errors["cells"] = COARSE_FACTOR * abs(by_coarse / max(by_fine, 1e-300) - 1.0)
         return errors
@@ -365,7 +406,7 @@ class HistoryTable:
         half = half_changes(pairs)
         middle = np.abs(half[-1])
         if coarse:
-            kept = self.every_second
+            kept = self._every_second
             half = amplitude_weights(self.amplitudes[kept], self.amplitudes) @ half[kept]
         states = [moment @ half + middle for moment in moments]
         if ladder.grid is not None:
@@ -424,19 +465,12 @@ def keeps_memory(run: Run, companions: Companions) -> bool:
     return is_uncoupled(run) and in_phase and not varies and not yields
 
 
-def interpolate_energy(
-    amplitudes: NDArray[np.float64], energies: NDArray[np.float64], wanted: NDArray[np.float64]
+def table_levels(
+    loops: CountedLoops, count: int, onset: float | None = None
 ) -> NDArray[np.float64]:
-    """Interpolate energy over amplitude^3, constant for small loops, over the amplitude."""
-    resolved = energies > 0.0
-    if not resolved.any():
-        return np.zeros_like(wanted)
-    a, ratio = amplitudes[resolved], np.log(energies[resolved] / amplitudes[resolved] ** 3)
-    return np.exp(np.interp(wanted, a, ratio)) * wanted**3
-
-
-def table_levels(loops: CountedLoops, count: int) -> NDArray[np.float64]:
     """Choose the amplitudes of a table: those that occur if they are few, else equal parts.
+
+    Where gross slip begins among them, `onset` is one of the amplitudes.
 
     All loops of the table have the mean of the largest one, which holds all others. Where no loop
     of a list of loops holds the others, that is a loop from the least to the largest value.
@@ -451,7 +485,12 @@ def table_levels(loops: CountedLoops, count: int) -> NDArray[np.float64]:
     if hull > top * (1.0 + 1e-9):
         top, mean = hull, 0.5 * (high + low)
         amplitudes = np.append(amplitudes, top)
-    parts = amplitudes / top if amplitudes.size <= count else np.arange(1, count + 1) / count
+    if amplitudes.size <= count:
+        parts = amplitudes / top
+    elif onset is None:
+        parts = np.arange(1, count + 1) / count
+    else:
+        parts = distinct(np.append(np.arange(1, count) / (count - 1), onset / top))
     levels = np.zeros((parts.size, 3))
     levels[:, 0], levels[:, 1] = top * parts[::-1], mean
     levels[0, 0] = top
