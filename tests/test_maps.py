@@ -134,7 +134,7 @@ def test_the_choice_of_a_channel_is_warned_of(name: str) -> None:
 @pytest.mark.parametrize("name", ["x3pio_dam1.x3p", "sdfio_iso_2_0_binary.sdf", "gwyddion.gwy"])
 def test_trends_are_subtracted_alike_by_all_readers(name: str) -> None:
     """The heights are a plane."""
-    surface = fret.read_surface(CORPUS / name, detrend="height")
+    surface = fret.read_surface(CORPUS / name, detrend="plane")
     assert surface.peak_to_valley < 1e-12
     assert fret.read_surface(CORPUS / name).values.mean() == pytest.approx(0.0, abs=1e-18)
 
@@ -165,3 +165,24 @@ def test_an_old_release_of_the_library_is_refused(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr("importlib.metadata.version", lambda _: "1.25.0")
     with pytest.raises(StoreError, match=r"1\.27\.1 or later, and 1\.25\.0 is installed"):
         fret.read_surface(CORPUS / "gwyddion.gwy")
+
+
+def test_a_form_is_subtracted_from_text_too(tmp_path: Path) -> None:
+    x = np.linspace(0.0, 1.0, 24)
+    heights = 1e-6 * (3.0 * x[:, None] - x[None, :] + 0.1 * np.cos(40.0 * x)[:, None])
+    np.savetxt(tmp_path / "map.csv", heights, delimiter=",")
+    read = lambda **options: fret.read_surface(tmp_path / "map.csv", spacing=1e-5, **options)  # noqa: E731
+    assert read(detrend="plane") == read().level()
+    assert read(detrend="paraboloid") == read().level("paraboloid")
+    assert read(detrend="center").values.mean() == pytest.approx(0.0, abs=1e-18)
+    with pytest.raises(ValueError, match=r"detrend = 'banana': must be one of 'center', 'plane'"):
+        read(detrend="banana")
+
+
+def test_heights_that_reach_further_than_the_map_need_their_unit(tmp_path: Path) -> None:
+    heights = np.random.default_rng(1).normal(size=(16, 16))
+    np.savetxt(tmp_path / "map.csv", heights, delimiter=",")
+    with pytest.raises(fret.errors.StoreError, match=r"the map is .* long: give their unit"):
+        fret.read_surface(tmp_path / "map.csv", spacing=2e-6)
+    surface = fret.read_surface(tmp_path / "map.csv", spacing=2e-6, unit="um")
+    assert surface.rms == pytest.approx(1e-6 * heights.std(), rel=1e-6)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-__all__ = ["Reading", "check_sizes", "remove_mean", "summarize"]
+__all__ = ["Reading", "check_heights", "check_sizes", "remove_mean", "summarize"]
 
 #: Smallest and largest side of a map of an instrument [m]: a scan of 0.1 um, a stage of 0.5 m.
 SHORTEST, LONGEST = 1e-7, 0.5
@@ -58,6 +58,18 @@ def check_sizes(shape: tuple[int, ...], spacing: tuple[float, float]) -> None:
                 "The unit of its lengths is likely another one. If you know the pitch, give "
                 "spacing=2e-6, in m"
             )
+
+
+def check_heights(
+    peak_to_valley: float, shape: tuple[int, ...], spacing: tuple[float, float]
+) -> None:
+    """Refuse heights without a unit that reach further than the map is long."""
+    side = max(count * step for count, step in zip(shape, spacing, strict=True))
+    if peak_to_valley > side:
+        raise StoreError(
+            f"the heights reach over {length(peak_to_valley)} if they are in m, and the map is "
+            f'{length(side)} long: give their unit, such as unit="um"'
+        )
 
 
 def remove_mean(heights: NDArray[np.float64]) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from os import PathLike, fspath
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from pyfret._core import StoreError, SurfaceMap, read_bytes
 from pyfret._util.scene_warnings import warn
 from pyfret.quantities import Length, quantities
 from pyfret.scene.instruments import read_by_surface_topography
-from pyfret.scene.reading import Reading, check_sizes, remove_mean, summarize
+from pyfret.scene.reading import Reading, check_heights, check_sizes, remove_mean, summarize
 from pyfret.scene.standard_maps import (
     HAS_LIBRARIES,
     is_sdf,
@@ -25,6 +25,9 @@ from pyfret.scene.standard_maps import (
 
 __all__ = ["read_surface"]
 
+#: Forms that are subtracted, and their names in SurfaceTopography.
+TRENDS = {"center": "center", "plane": "height", "paraboloid": "curvature"}
+Trend: TypeAlias = Literal["center", "plane", "paraboloid"]
 #: Endings of files of numbers alone. What they hold decides: a binary one is an instrument's.
 PLAIN = frozenset((".npy", ".csv", ".txt", ".dat", ".tsv", ".asc", ".xyz", ".prn", ".grd", ""))
 #: Bytes at the beginning of a file by which its format is recognized.
@@ -52,13 +55,13 @@ def read_surface(
     unit: str | None = None,
     channel: str | int | None = None,
     missing: Literal["refuse", "crop", "fill"] = "refuse",
-    detrend: str = "center",
+    detrend: Trend | None = None,
 ) -> SurfaceMap:
     """Read a measured surface: X3P, SDF, OPD and all other formats of SurfaceTopography, and text.
 
     ``.npy`` arrays and text (tables, points x y z in any order, Gwyddion's export, ESRI grids) are
-    read as :meth:`SurfaceMap.from_file` reads them; `detrend` takes nothing off these. The content
-    of the file decides, not its ending. Points, pitch, size and S_q are printed on standard error.
+    read as :meth:`SurfaceMap.from_file` reads them. The content of the file decides, not its
+    ending. Points, pitch, size and S_q are printed on standard error.
 
     Parameters
     ----------
@@ -78,8 +81,9 @@ def read_surface(
         What becomes of points that were not measured. "refuse": an error with their place. "crop":
         lines are taken off the edges. "fill": the mean of the neighbours, where at most a tenth of
         the points is missing and no hole is wider than ten.
-    detrend : str
-        ``center`` subtracts the mean, ``height`` the mean plane, ``curvature`` a paraboloid.
+    detrend : "center", "plane" or "paraboloid", optional
+        Form that is subtracted: the mean, the mean plane, a paraboloid. Default: the mean of the
+        file of an instrument, nothing of arrays and text.
 
     Warns
     -----
@@ -97,14 +101,19 @@ def read_surface(
         measured. If it has several channels, or leaves something open. The message names the
         argument to give.
     """
+    if detrend is not None and detrend not in TRENDS:
+        raise ValueError(
+            f"detrend = {detrend!r:.60}: must be one of {', '.join(map(repr, TRENDS))}"
+        )
     start = beginning(path)
     source = Path(path)
     try:
         if is_text(source, start) and not is_sdf(start) and not HEADS.search(start):
-            return read_plain(source, start, spacing, unit, channel, missing)
+            return read_plain(source, start, spacing, unit, channel, missing, detrend)
         if not start:
             raise StoreError("is empty")
-        reading = read_map(source, start, spacing, unit, channel, detrend)
+        trend = "center" if detrend is None else TRENDS[detrend]
+        reading = read_map(source, start, spacing, unit, channel, trend)
         check_sizes(reading.heights.shape, reading.spacing)
     except StoreError as error:
         text = str(error)
@@ -162,6 +171,7 @@ def read_plain(
     unit: str | None,
     channel: str | int | None,
     missing: Literal["refuse", "crop", "fill"],
+    detrend: Trend | None,
 ) -> SurfaceMap:
     """Read an array or text without the head of an instrument."""
     column = None if channel is None else str(channel)
@@ -170,6 +180,12 @@ def read_plain(
     )
     shape = surface.values.shape
     check_sizes(shape, surface.spacing)
+    if unit is None:
+        check_heights(surface.peak_to_valley, shape, surface.spacing)
+    if detrend == "center":
+        surface = surface.replace(values=surface.values - surface.values.mean())
+    elif detrend is not None:
+        surface = surface.level(detrend)
     line = SIZES.search(start)
     if line is not None and spacing is not None:
         text = " ".join(line[0].decode("latin-1").split())
