@@ -239,3 +239,23 @@ def test_a_drift_is_removed_on_request(capsys: pytest.CaptureFixture[str]) -> No
     assert "drift removed" in capsys.readouterr().err
     with pytest.raises(ValueError, match="two whole cycles"):
         remove_drift(shift, [0, 500])
+
+
+def test_measured_loops_are_described_and_drawn() -> None:
+    # A spring of 8 N/um in series with friction of 60 N; 4.5 cycles of 50 um: one is not whole.
+    t = np.linspace(0.0, 5.0, 1801)
+    shift = 50e-6 * np.sin(2.0 * np.pi * t)
+    force, slid = np.zeros_like(shift), 0.0
+    for n, value in enumerate(shift):
+        force[n] = np.clip(8e6 * (value - slid), -60.0, 60.0)
+        slid = value - force[n] / 8e6
+    loops = fret.fit.Loops.from_arrays(shift, force)
+    expected = 4.0 * 60.0 * (50e-6 - 60.0 / 8e6)
+    np.testing.assert_allclose(loops.energies, expected, rtol=2e-3)
+    assert loops.energies.size == 4
+    text = loops.summary()
+    assert "4 whole cycles" in text
+    assert "energy per cycle 0.0102 J" in text
+    assert "the loops slide" in text
+    ax = loops.plot()
+    assert ax.get_ylabel() == "force [N]"

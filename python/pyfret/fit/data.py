@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Mapping, Sequence
 
+    from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
     from pyfret.fit.columns import RecordColumns
@@ -54,6 +55,8 @@ Data: TypeAlias = "Loops | Indentation | Scar | Lives"
 #: Part of a branch at its end with the slope of sliding, and the largest slope there, over
 #: the slope of the flank, for a loop that slides: at 0.9 mu W a ball in partial slip has 0.46.
 END, SLIDING = 0.25, 0.3
+#: Part of the shift of a cycle that both of its branches have, if it is a whole one.
+WHOLE = 0.9
 
 
 @part(eq=False, repr=False)
@@ -93,6 +96,44 @@ class Loops(HoldsArrays):
     #: Turns within the record, (n, 3): number of the point, between two points as a rule, shift
     #: there and its error [m]; :func:`turns_between`.
     turns: NDArray[np.float64] | None = None
+
+    @property
+    def energies(self) -> NDArray[np.float64]:
+        """Energy of every whole cycle [J]: area of its loop, closed by a straight line."""
+        areas = []
+        for n in range(int(self.cycle.max()) + 1):
+            inside = self.cycle == n
+            sides = [self.delta[inside & (self.down == down)] for down in (False, True)]
+            reach = WHOLE * float(np.ptp(self.delta[inside]))
+            if any(side.size == 0 or float(np.ptp(side)) < reach for side in sides):
+                continue
+            shift, force = self.delta[inside], self.T[inside]
+            areas.append(
+                0.5 * abs(float(np.sum(shift * np.roll(force, -1) - np.roll(shift, -1) * force)))
+            )
+        return np.array(areas)
+
+    def summary(self) -> str:
+        """Describe the loops: cycles, points, ranges, energy per cycle."""
+        energies = self.energies
+        lines = [
+            f"{energies.size} whole cycles, {self.delta.size} points",
+            f"shift {length(float(self.delta.min()))} to {length(float(self.delta.max()))}, force "
+            f"{self.T.min():.4g} to {self.T.max():.4g} N",
+            "the loops slide" if self.sliding_slope is not None else "the loops do not slide",
+        ]
+        if energies.size:
+            spread = (
+                f", {energies.min():.4g} to {energies.max():.4g} J" if energies.size > 1 else ""
+            )
+            lines.insert(2, f"energy per cycle {energies.mean():.4g} J{spread}")
+        return "\n".join(lines).replace("µ", "u")
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw force over shift."""
+        from pyfret.fit.figures import measured_loops
+
+        return measured_loops(self, ax)
 
     @property
     def sliding_slope(self) -> float | None:
