@@ -131,3 +131,16 @@ def test_an_unknown_name_has_neighbours_of_its_kind(name: str, kind: str) -> Non
     allowed = {"ceramic", "coating"} if kind == "coating" else {kind}
     assert {kinds[near] for near in listed} <= allowed
     assert fret.material("Cr") == fret.material("chromium")
+
+
+@pytest.mark.parametrize("motion", [{"T": "80 N/mm"}, {"shift": 2e-6}, {}])
+def test_bulk_stress_is_in_phase_with_the_motion(motion: dict[str, Any]) -> None:
+    scene = fret.Scene.cylinder_on_flat(
+        "steel", "steel", R=0.01, W=2e5, mu=0.6, sigma_B="150 MPa", cycles=2, n=32, **motion
+    )
+    branches = scene.path.branches[1:]
+    assert [branch.sigma_B for branch in branches] == [1.5e8, -1.5e8, 1.5e8, -1.5e8, 1.5e8]
+    if "T" in motion:
+        assert [branch.T_x for branch in branches] == [8e4, -8e4, 8e4, -8e4, 8e4]
+    if "shift" in motion:
+        assert [branch.delta_x for branch in branches] == [2e-6, -2e-6, 2e-6, -2e-6, 2e-6]

@@ -25,10 +25,12 @@ from pyfret._core import (
     SurfaceMap,
 )
 from pyfret._util.numbers import length
+from pyfret._util.parameters import opposite
 from pyfret.grids import for_contact
 from pyfret.material_table import material
 from pyfret.quantities import (
     Angle,
+    BulkStress,
     FrictionCoefficient,
     Length,
     Quantity,
@@ -66,6 +68,7 @@ def ball_on_flat(
     mu: FrictionCoefficient,
     T: Quantity | None = None,
     shift: Length | None = None,
+    sigma_B: BulkStress | None = None,
     cycles: int = 2,
     wear: Mapping[str, Any] | None = None,
     error: float = 0.02,
@@ -87,6 +90,9 @@ def ball_on_flat(
     T, shift : float, optional
         Amplitude of the tangential force [N], or of the shift of the bodies [m], along x
         (default: the ball is pressed alone).
+    sigma_B : float, optional
+        Amplitude of the bulk stress of the lower body along x [Pa], in phase with the force or the
+        shift (default: none).
     cycles : int
         Cycles of the force or of the shift (default 2).
     wear : dict, optional
@@ -114,7 +120,7 @@ def ball_on_flat(
     >>> fret.solve(scene).summary()  # doctest: +SKIP
     """
     bodies = shaped(ball, Sphere(R=as_number(R)), "ball"), shaped(flat, Flat(), "flat")
-    path = path_of(W, T, shift, cycles, "N")
+    path = path_of(W, T, shift, sigma_B, cycles, "N")
     return fitted(bodies, path, mu, wear=wear, error=error, n=n, quiet=quiet)
 
 
@@ -128,6 +134,7 @@ def cylinder_on_flat(
     mu: FrictionCoefficient,
     T: Quantity | None = None,
     shift: Length | None = None,
+    sigma_B: BulkStress | None = None,
     cycles: int = 2,
     wear: Mapping[str, Any] | None = None,
     error: float = 0.02,
@@ -140,7 +147,7 @@ def cylinder_on_flat(
     For the other parameters see :func:`ball_on_flat`.
     """
     bodies = shaped(cylinder, Cylinder(as_number(R)), "cylinder"), shaped(flat, Flat(), "flat")
-    path = path_of(W, T, shift, cycles, "N/m")
+    path = path_of(W, T, shift, sigma_B, cycles, "N/m")
     return fitted(bodies, path, mu, plane=True, wear=wear, error=error, n=n, quiet=quiet)
 
 
@@ -156,6 +163,7 @@ def crossed_cylinders(
     mu: FrictionCoefficient,
     T: Quantity | None = None,
     shift: Length | None = None,
+    sigma_B: BulkStress | None = None,
     cycles: int = 2,
     wear: Mapping[str, Any] | None = None,
     error: float = 0.02,
@@ -172,7 +180,7 @@ def crossed_cylinders(
         Their radii [m] (default of the second: the first radius).
     angle : float
         Angle between the axes [rad], such as ``"90 deg"`` (default: a right angle).
-    W, mu, T, shift, cycles, wear, error, n, quiet
+    W, mu, T, shift, sigma_B, cycles, wear, error, n, quiet
         As in :func:`ball_on_flat`.
     """
     radius = as_number(R)
@@ -181,7 +189,7 @@ def crossed_cylinders(
         shaped(first, Cylinder(radius), "first"),
         shaped(second, Cylinder(second_radius, angle=as_number(angle)), "second"),
     )
-    path = path_of(W, T, shift, cycles, "N")
+    path = path_of(W, T, shift, sigma_B, cycles, "N")
     return fitted(bodies, path, mu, wear=wear, error=error, n=n, quiet=quiet)
 
 
@@ -196,6 +204,7 @@ def flat_pad(
     mu: FrictionCoefficient,
     T: Quantity | None = None,
     shift: Length | None = None,
+    sigma_B: BulkStress | None = None,
     cycles: int = 2,
     wear: Mapping[str, Any] | None = None,
     error: float = 0.02,
@@ -214,12 +223,12 @@ def flat_pad(
         Radius of the edges [m].
     W, T : float
         Forces per metre [N/m].
-    mu, shift, cycles, wear, error, n, quiet
+    mu, shift, sigma_B, cycles, wear, error, n, quiet
         As in :func:`ball_on_flat`.
     """
     shape = FlatPunch(radius=0.5 * as_number(width), edge=as_number(edge))
     bodies = shaped(pad, shape, "pad"), shaped(flat, Flat(), "flat")
-    path = path_of(W, T, shift, cycles, "N/m")
+    path = path_of(W, T, shift, sigma_B, cycles, "N/m")
     return fitted(bodies, path, mu, plane=True, wear=wear, error=error, n=n, quiet=quiet)
 
 
@@ -234,6 +243,7 @@ def rough_on_flat(
     mu: FrictionCoefficient,
     T: Quantity | None = None,
     shift: Length | None = None,
+    sigma_B: BulkStress | None = None,
     cycles: int = 2,
     wear: Mapping[str, Any] | None = None,
     error: float = 0.05,
@@ -250,7 +260,7 @@ def rough_on_flat(
         Measured heights, a random surface, or the file of an instrument.
     R : float
         Radius of the ball [m]: flats would touch over the whole grid.
-    W, mu, T, shift, cycles, wear, error, n, quiet
+    W, mu, T, shift, sigma_B, cycles, wear, error, n, quiet
         As in :func:`ball_on_flat`; `error` is 5 % by default.
     """
     if isinstance(surface, SurfaceMap | Rough):
@@ -261,7 +271,7 @@ def rough_on_flat(
         raise TypeError(f"surface = {surface!r:.60}: must be a SurfaceMap, a Rough or a path")
     shape = Sum([Sphere(R=as_number(R)), heights])
     bodies = shaped(rough, shape, "rough"), shaped(flat, Flat(), "flat")
-    path = path_of(W, T, shift, cycles, "N")
+    path = path_of(W, T, shift, sigma_B, cycles, "N")
     return fitted(bodies, path, mu, wear=wear, error=error, n=n, quiet=quiet)
 
 
@@ -287,8 +297,8 @@ def shaped(part: Any, shape: Any, name: str) -> Body:
     return part.replace(shape=shape)
 
 
-def path_of(W: Any, T: Any, shift: Any, cycles: int, unit: str) -> LoadPath:
-    """Return the path: pressed to W, then cycles of a force or of a shift.
+def path_of(W: Any, T: Any, shift: Any, sigma_B: Any, cycles: int, unit: str) -> LoadPath:
+    """Return the path: pressed to W, then cycles of a force or of a shift, and of a bulk stress.
 
     Raises
     ------
@@ -300,9 +310,19 @@ def path_of(W: Any, T: Any, shift: Any, cycles: int, unit: str) -> LoadPath:
     if cycles < 1:
         raise ValueError(f"cycles = {cycles}: must be 1 or more")
     pressed = LoadPath.start().normal(W)
-    if T is not None:
-        return pressed.cycles(cycles, T_x=T)
-    return pressed if shift is None else pressed.cycles(cycles, delta_x=shift)
+    if sigma_B is None:
+        if T is not None:
+            return pressed.cycles(cycles, T_x=T)
+        return pressed if shift is None else pressed.cycles(cycles, delta_x=shift)
+    signs = [1.0, *[-1.0, 1.0] * cycles]
+    stresses = [sign * as_number(sigma_B) for sign in signs]
+    if shift is not None:
+        shifts = [sign * as_number(shift) for sign in signs]
+        return pressed.waypoints(increments="auto", delta_x=shifts, sigma_B=stresses)
+    for sign, stress in zip(signs, stresses, strict=True):
+        force = {} if T is None else {"T_x": T if sign > 0.0 else opposite(T)}
+        pressed = pressed.force(sigma_B=stress, **force)
+    return pressed
 
 
 def fitted(
