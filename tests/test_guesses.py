@@ -220,3 +220,71 @@ def test_constructors_refuse_at_once(
 def test_a_radius_needs_no_name() -> None:
     assert fret.Cylinder(5e-3) == fret.Cylinder(R=5e-3)
     assert fret.Sphere(5e-3) == fret.Sphere(R=5e-3)
+
+
+def test_tables_of_cycles_and_branches_are_written_as_pandas_writes_them(
+    result: fret.Result, tmp_path: Path
+) -> None:
+    loops = result.loops()
+    assert isinstance(loops, Dataset)
+    loops.to_csv(tmp_path / "loops.csv", columns=["T", "dissipated [J]"])
+    head, row = (tmp_path / "loops.csv").read_text().split("\n")[:2]
+    assert head == "T [N],dissipated [J]"
+    assert float(row.split(",")[1]) == float(loops.dissipated[0])
+    result.branches().to_excel(tmp_path / "branches.xlsx")
+    assert (tmp_path / "branches.xlsx").stat().st_size > 0
+    assert "T_x [N]" in result.branches().to_dataframe().columns
+    assert type(loops.isel(cycle=[0])) is type(loops)
+    result.to_csv(tmp_path / "loop.csv", columns=["delta_x", "T_x"])
+    assert (tmp_path / "loop.csv").read_text().startswith("delta_x [m],T_x [N]\n")
+    with pytest.raises(ValueError, match="no column 'energy'; there is dissipated"):
+        result.to_csv(tmp_path / "x.csv", columns=["energy"])
+    assert not (tmp_path / "x.csv").exists()
+
+
+def test_layers_have_their_printed_names(result: fret.Result) -> None:
+    stress = result.at(-1).stress()
+    for layer, names in ((0, ("coating", "coating 1")), (1, ("substrate", "the substrate"))):
+        expected = stress.maximum("s_1", layer=layer)
+        for name in names:
+            assert stress.maximum("s_1", layer=name) == expected
+    for wrong in ("TiN", 2, -1):
+        with pytest.raises(ValueError, match=r"0 \(coating 1\), 1 \(the substrate\)"):
+            stress.maximum("s_1", layer=wrong)
+
+
+def test_a_criterion_is_chosen_by_the_numbers_of_the_material(result: fret.Result) -> None:
+    cycle = fret.solve(result.scene, save="all", progress=False)
+    assert repr(cycle.life("steel_42CrMo4")).startswith("Life(smith_watson_topper")
+    with pytest.raises(ValueError, match="criterion = nothing: must be given; material `TiN`"):
+        cycle.life("TiN")
+
+
+@pytest.mark.parametrize(
+    ("guess", "says"),
+    [
+        (lambda: fret.LoadPath.start().cycles(1, T_x=1.0, sigma_B=1e6), r"LoadPath.force\(sigma"),
+        (lambda: fret.LoadPath.start().tangential([1.0], bulk=1e6), r"waypoints\(sigma_B=...\)"),
+        (lambda: fret.Body("steel", surface=1), "the nearest is 'shape'"),
+        (lambda: fret.Body("steel", roughness=1), "the nearest is 'shape'"),
+        (lambda: fret.HeightMap, "pyfret.SurfaceMap"),
+        (lambda: fret.materials("100Cr6"), r"fret.material\('100Cr6'\)"),
+        (lambda: fret.materials["Unobtainium"], "no material 'Unobtainium'"),
+        (lambda: fret.Coating("TiNN", thickness=1e-6), "material: no material 'TiNN'"),
+    ],
+)
+def test_guesses_of_names_are_answered(guess: Callable[[], object], says: str) -> None:
+    with pytest.raises((TypeError, ValueError, AttributeError, KeyError), match=says):
+        guess()
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_materials_are_given_by_their_names() -> None:
+    film = fret.Coating("TiN", thickness="2 um")
+    assert film == fret.Coating(fret.material("TiN"), thickness=2e-6)
+    assert film == fret.Coating(material=fret.fatigue.Materials()["TiN"], thickness=2e-6)
+    body = fret.Body("Ti-6Al-4V", coatings=[film])
+    assert body == fret.Body(fret.materials["Ti6Al4V"], coatings=[film])
+    assert fret.Body(substrate="steel") == fret.Body(fret.material("steel"))
+    assert "TiN" in fret.materials
+    assert set(fret.materials) == set(fret.materials().index)

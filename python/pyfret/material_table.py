@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from pyfret._core import Elastic, Material, Plastic, material_quantities
+from pyfret._util.compiled import register_materials
+from pyfret._util.material_names import find_material
 from pyfret._util.scene_warnings import warn
 from pyfret.fatigue import Materials
 from pyfret.fatigue.ranges import known_as
@@ -12,10 +14,11 @@ from pyfret.quantities import YieldStress, quantities
 
 if TYPE_CHECKING:
     import os
+    from collections.abc import Iterator
 
     import pandas as pd
 
-__all__ = ["hardness_from", "material", "materials"]
+__all__ = ["elastic_from", "hardness_from", "list_table", "material", "materials"]
 
 #: Poisson's ratio of what none is known of: hard nitrides and carbon films have 0.2 to 0.3, which
 #: moves E/(1 - nu^2) by 3 % to either side.
@@ -30,7 +33,9 @@ KNOWN = {"known": "measured", "estimate": "estimated", "recalled": "recalled"}
 
 
 @quantities
-def materials(file: str | os.PathLike[str] | None = None, *, sources: bool = False) -> pd.DataFrame:
+def list_table(
+    file: str | os.PathLike[str] | None = None, *, sources: bool = False
+) -> pd.DataFrame:
     """List the materials as a table of pandas, by the names that :func:`material` takes.
 
     Parameters
@@ -49,11 +54,15 @@ def materials(file: str | os.PathLike[str] | None = None, *, sources: bool = Fal
 
     Examples
     --------
-    >>> materials().loc["chromium", "E [Pa]"]
+    >>> fret.materials().loc["chromium", "E [Pa]"]
     279000000000.0
     """
     import pandas as pd
 
+    if isinstance(file, str) and find_material(file, Materials()) is not None:
+        raise ValueError(
+            f"file = {file!r}: is the name of a material, fret.material({file!r}); must be a file"
+        )
     table = Materials(file)
     units = {name: unit for name, unit, _ in material_quantities()}
     if sources:
@@ -151,6 +160,25 @@ def material(
     return Elastic(E=chosen.number("E"), nu=nu, plastic=law)
 
 
+def elastic_from(value: Any, parameter: str) -> Any:
+    """Return the elastic material of a name or of a row of the table; others as they are.
+
+    Raises
+    ------
+    ValueError
+        There is no such material, or the table has no modulus of it.
+    """
+    if isinstance(value, Material):
+        numbers = {name: number for name, number, _ in value.numbers()}
+        return Elastic(E=value.number("E"), nu=numbers.get("nu", NU))
+    if not isinstance(value, str):
+        return value
+    try:
+        return material(value)
+    except KeyError as error:
+        raise ValueError(f"{parameter}: {error.args[0]}") from None
+
+
 @quantities
 def hardness_from(hardness: YieldStress | Material | str) -> float:
     """Return a hardness [Pa]: a number, or 2.8 times the yield stress of a material."""
@@ -164,3 +192,45 @@ def hardness_from(hardness: YieldStress | Material | str) -> float:
             f"hardness: the table has no yield stress of {chosen.name}; give a pressure in Pa"
         )
     return HARDNESS_RATIO * chosen.number("s_y")
+
+
+class MaterialTable:
+    """The table of materials: called, it lists them; by a name it gives a material.
+
+    ``fret.materials()`` is a table of pandas, see :func:`list_table`. ``fret.materials["TiN"]`` is
+    the elastic material :func:`material` with that name.
+    """
+
+    __name__ = "materials"
+
+    def __call__(
+        self, file: str | os.PathLike[str] | None = None, *, sources: bool = False
+    ) -> pd.DataFrame:
+        """List the materials: :func:`list_table`."""
+        return list_table(file, sources=sources)
+
+    def __getitem__(self, name: str) -> Elastic:
+        """Return the material of a name: :func:`material`."""
+        return material(name)
+
+    def __iter__(self) -> Iterator[str]:
+        """Go through the names."""
+        return iter(Materials())
+
+    def __len__(self) -> int:
+        """Count the materials."""
+        return len(Materials())
+
+    def __contains__(self, name: object) -> bool:
+        """Whether there is a material of a name."""
+        return isinstance(name, str) and find_material(name, Materials()) is not None
+
+    def __repr__(self) -> str:
+        """Give the names."""
+        return f"materials: {', '.join(self)}"
+
+
+#: The table of materials.
+materials = MaterialTable()
+
+register_materials(elastic_from)

@@ -10,13 +10,14 @@ from collections.abc import Callable, Sequence
 from types import BuiltinFunctionType, MethodDescriptorType
 from typing import TYPE_CHECKING, Any
 
-from pyfret._util.keywords import check_places, unknown_keyword
+from pyfret._util.keywords import check_places, nearest_names, unknown_keyword
+from pyfret._util.names import meant
 from pyfret._util.refusals import refuse_clearly
 
 if TYPE_CHECKING:
     from types import ModuleType
 
-__all__ = ["guard"]
+__all__ = ["guard", "register_materials"]
 
 #: The class that a constructor gets.
 CLASS = inspect.Parameter("cls", inspect.Parameter.POSITIONAL_ONLY)
@@ -46,8 +47,19 @@ def guard(module: ModuleType, constructors: dict[type, Callable[..., Any]]) -> N
                 refuse_construction(member, members)
 
 
+#: Names of the parameters of all methods, by class and method.
+PARAMETERS: dict[str, dict[str, tuple[str, ...]]] = {}
+#: Methods that take any keyword, and the method whose keywords they take in turn.
+OTHERS_TAKE = {"LoadPath.waypoints": "LoadPath.force"}
+
+
 def guard_methods(kind: type) -> None:
     """Put the methods of a class behind :func:`refusing`."""
+    PARAMETERS[kind.__name__] = {
+        key: named_parameters(member)
+        for key, member in vars(kind).items()
+        if isinstance(member, MethodDescriptorType) and not key.startswith("_")
+    }
     for key, member in list(vars(kind).items()):
         if key.startswith("_"):
             continue
@@ -62,13 +74,40 @@ def guard_constructor(kind: type, make: Callable[..., Any]) -> None:
     """Put the constructor of a class behind :func:`refusing`."""
     signature = inspect.signature(kind)
 
+    parameter = MATERIALS.get(kind.__name__)
+
     def __new__(cls: type, /, *values: Any, **keywords: Any) -> Any:  # noqa: N807
+        if parameter is not None:
+            values, keywords = with_material(parameter, values, keywords)
         return make(cls, *values, **keywords)
 
     __new__.__signature__ = signature.replace(parameters=[CLASS, *signature.parameters.values()])  # type: ignore[attr-defined]
     __new__.__qualname__ = f"{kind.__qualname__}.__new__"
     __new__.__module__ = kind.__module__
     kind.__new__ = staticmethod(refusing(__new__, kind.__name__))  # type: ignore[method-assign]
+
+
+#: Parameter of a constructor that takes the name of a material of the table: its first one.
+MATERIALS = {"Body": "substrate", "Coating": "material"}
+#: The function that reads a material by its name: one, once the package is imported.
+MATERIAL_READERS: list[Callable[[Any, str], Any]] = []
+
+
+def with_material(
+    parameter: str, values: tuple[Any, ...], keywords: dict[str, Any]
+) -> tuple[tuple[Any, ...], dict[str, Any]]:
+    """Return arguments with an elastic material in place of its name or its row of the table."""
+    for read in MATERIAL_READERS:
+        if values:
+            values = (read(values[0], parameter), *values[1:])
+        elif parameter in keywords:
+            keywords = {**keywords, parameter: read(keywords[parameter], parameter)}
+    return values, keywords
+
+
+def register_materials(read: Callable[[Any, str], Any]) -> None:
+    """Enter the function that reads a material by its name, from a value and its parameter."""
+    MATERIAL_READERS[:] = [read]
 
 
 def refuse_construction(kind: type, members: list[str]) -> None:
@@ -97,13 +136,38 @@ def refusing(call: Callable[..., Any], name: str) -> Callable[..., Any]:
     )
 
 
+def named_parameters(call: Callable[..., Any]) -> tuple[str, ...]:
+    """Return the parameters of a function that are given by name."""
+    if getattr(call, "__text_signature__", None) is None:
+        return ()
+    parameters = inspect.signature(call).parameters.values()
+    return tuple(parameter.name for parameter in parameters if parameter.kind in NAMED)
+
+
+def taken_elsewhere(call: str, keyword: str) -> str:
+    """Return a clause on the other methods of a class that take a keyword or its synonym."""
+    kind, _, method = call.partition(".")
+    siblings = PARAMETERS.get(kind, {})
+    takers = []
+    for name in siblings:
+        other = OTHERS_TAKE.get(f"{kind}.{name}", f"{kind}.{name}").partition(".")[2]
+        known = siblings.get(other, ())
+        if name != method and (keyword in known or meant(keyword, known)):
+            word = keyword if keyword in known else meant(keyword, known)[0]
+            takers.append(f"{kind}.{name}({word}=...)")
+    return f"; it is an argument of {' and '.join(takers)}" if takers else ""
+
+
 def refuse_call(
     name: str, parameters: list[inspect.Parameter], values: Sequence[Any], keywords: dict[str, Any]
 ) -> TypeError | None:
     """Return the refusal of arguments whose names or whose number are wrong."""
     if not any(parameter.kind is parameter.VAR_KEYWORD for parameter in parameters):
-        named = (parameter.name for parameter in parameters if parameter.kind in NAMED)
-        refusal = unknown_keyword(name, keywords, [key for key in named if key != "self"])
+        named = [parameter.name for parameter in parameters if parameter.kind in NAMED]
+        known = [key for key in named if key != "self"]
+        refusal = unknown_keyword(name, keywords, known)
         if refusal is not None:
-            return refusal
+            unknown = next(key for key in keywords if key not in known)
+            elsewhere = "" if nearest_names(unknown, known, 1) else taken_elsewhere(name, unknown)
+            return TypeError(f"{refusal}{elsewhere}")
     return check_places(name, parameters, values)

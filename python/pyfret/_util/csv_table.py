@@ -3,24 +3,38 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from pyfret import _core
+from pyfret._util.keywords import nearest_names
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Mapping
     from typing import TypeAlias
 
     import pandas as pd
     import xarray as xr
 
+    from pyfret._util.labelled_table import Table
+
     #: What makes the datasets of the tables and the axes of their rows, by the names of the tables.
     Tables: TypeAlias = dict[str, Callable[[], tuple[xr.Dataset, Sequence[str] | None]]]
 
-__all__ = ["Tabular", "data_frame", "head", "unit_of", "write_csv", "write_excel"]
+__all__ = [
+    "Tabular",
+    "as_table",
+    "check_path",
+    "choose_columns",
+    "data_frame",
+    "head",
+    "unit_of",
+    "write_csv",
+    "write_excel",
+]
 
 #: The dimension whose entries become columns.
 AXIS = "axis"
@@ -134,6 +148,36 @@ def check_path(path: Any) -> None:
         raise TypeError(f"path = {shown}: must be a path, such as 'table.csv'")
 
 
+def as_table(dataset: xr.Dataset) -> Table:
+    """Return a dataset with ``to_csv`` and ``to_excel``."""
+    from pyfret._util.labelled_table import Table
+
+    return Table(dataset.data_vars, dataset.coords, dataset.attrs)
+
+
+def choose_columns(frame: pd.DataFrame, columns: Sequence[str] | None) -> pd.DataFrame:
+    """Return some columns of a table, by their names with or without units.
+
+    Raises
+    ------
+    TypeError
+        The columns are no names.
+    ValueError
+        The table has no such column; the message has the nearest ones.
+    """
+    if columns is None:
+        return frame
+    names = [columns] if isinstance(columns, str) else columns
+    if not isinstance(names, Sequence) or not all(isinstance(name, str) for name in names):
+        raise TypeError(f"columns = <{type(columns).__name__}>: must be a list of names")
+    heads = {head.split(" [")[0]: head for head in frame.columns}
+    for name in names:
+        if name not in heads and name not in frame.columns:
+            near = nearest_names(name, heads, 3) or list(heads)
+            raise ValueError(f"columns: no column {name!r:.60}; there is {', '.join(near)}")
+    return frame[[heads.get(name, name) for name in names]]
+
+
 class Tabular:
     """Something with tables: data frames, CSV and Excel, units in the names of columns."""
 
@@ -168,14 +212,31 @@ class Tabular:
         """
         return self._frame(of)
 
-    def to_csv(self, path: str | os.PathLike[str], *, of: str | None = None) -> None:
+    def to_csv(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        of: str | None = None,
+        columns: Sequence[str] | None = None,
+    ) -> None:
         """Write :meth:`to_dataframe` as a table of text (``.csv``).
 
         A file that is there is replaced.
+
+        Parameters
+        ----------
+        path : path
+            The file.
+        of : str, optional
+            The table, as in :meth:`to_dataframe`.
+        columns : sequence of str, optional
+            Columns in this order, such as ``["delta_x", "T_x"]``, with or without their units
+            (default: all).
         """
         self._maker(of)
         check_path(path)
-        self._frame(of).to_csv(path, index=False, lineterminator="\n", encoding="utf-8")
+        frame = choose_columns(self._frame(of), columns)
+        frame.to_csv(path, index=False, lineterminator="\n", encoding="utf-8")
 
     def to_excel(self, path: str | os.PathLike[str], *, of: str | None = None) -> None:
         """Write the tables into a workbook of Excel (``.xlsx``): a sheet for each, or `of` alone.

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import math
 import re
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
 
 __all__ = [
     "format_number",
     "in_letters",
     "in_powers",
     "in_words",
+    "layer_index",
     "layer_name",
     "length",
     "place",
@@ -149,3 +153,22 @@ def layer_name(layer: int, coatings: int) -> str:
     ('coating 1', 'the substrate')
     """
     return f"coating {layer + 1}" if layer < coatings else "the substrate"
+
+
+def layer_index(layer: int | str, coatings: int, known: Collection[int]) -> int:
+    """Return the index of a layer that is given by it or by its name: "coating", "substrate".
+
+    Raises
+    ------
+    ValueError
+        There is no such layer; the message has the layers with their names.
+    """
+    names = {layer_name(n, coatings).removeprefix("the "): n for n in range(coatings + 1)}
+    if coatings == 1:
+        names["coating"] = 0
+    word = layer.strip().lower().removeprefix("the ") if isinstance(layer, str) else ""
+    number = names.get(word, -1) if isinstance(layer, str) else layer
+    if number not in known:
+        listed = ", ".join(f"{n} ({layer_name(n, coatings)})" for n in sorted(known))
+        raise ValueError(f"layer = {layer!r:.60}: must be one of {listed}, as a number or a name")
+    return int(number)

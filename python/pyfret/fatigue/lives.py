@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pyfret._core import Material
 from pyfret._util.lazy import xr
 from pyfret.fatigue.beyond_yield import note_on_yield
 from pyfret.fatigue.cycle_section import (
@@ -40,6 +41,9 @@ if TYPE_CHECKING:
     from pyfret.fatigue.criteria import CriterionName
     from pyfret.run import Run
 
+#: Criteria in the order in which they are taken where none is given.
+USUAL: tuple[CriterionName, ...] = ("smith_watson_topper", "dang_van", "crossland")
+
 __all__ = ["Life", "Materials", "life", "lives"]
 
 
@@ -47,7 +51,7 @@ __all__ = ["Life", "Materials", "life", "lives"]
 def life(
     result: Run,
     materials: Materials,
-    criterion: CriterionName,
+    criterion: CriterionName | None = None,
     z: Lengths | None = None,
     *,
     tolerance: float = 1e-3,
@@ -65,8 +69,9 @@ def life(
     materials : Material or sequence of Material or None
         Material of the substrate, or one for each layer from the surface down, the substrate's
         last. Layers of ``None`` are not judged, nor coatings where one material is given.
-    criterion : str
-        One of :data:`pyfret.fatigue.CRITERIA`.
+    criterion : str, optional
+        One of :data:`pyfret.fatigue.CRITERIA`. Default: the first of Smith, Watson and Topper,
+        Dang Van and Crossland whose numbers all materials have; the result is printed with it.
     z : array, optional
         Depths [m] (default: chosen by layer, both sides of every interface).
     tolerance : float
@@ -84,12 +89,36 @@ def life(
         There is no closed cycle, or too few of its increments were kept. A material lacks a number
         that the criterion needs, or no depth lies in a layer that has a material.
     """
+    if criterion is None:
+        criterion = usual_criterion(materials)
     if not isinstance(criterion, str):
         raise TypeError(
             f"criterion = {criterion!r}: must be one of fatigue.CRITERIA; "
             "fatigue.lives(result, materials, [...]) evaluates several"
         )
     return lives(result, materials, [criterion], z, tolerance=tolerance, **section)[criterion]
+
+
+def usual_criterion(materials: Materials) -> CriterionName:
+    """Return the first of the usual criteria whose numbers all materials have.
+
+    Raises
+    ------
+    ValueError
+        The materials have the numbers of none of them.
+    """
+    listed = materials if isinstance(materials, Sequence) else [materials]
+    judged = [material for material in listed if isinstance(material, Material)]
+    refusals = []
+    for name in USUAL:
+        try:
+            for material in judged:
+                material.assessment(name)
+        except ValueError as error:
+            refusals.append(str(error))
+        else:
+            return name
+    raise ValueError(f"criterion = nothing: must be given; {refusals[0]}")
 
 
 @quantities

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from pyfret._util.attributes import attribute_error
+from pyfret._util.csv_table import as_table
 from pyfret._util.lazy import xr
 from pyfret._util.text import shown
 from pyfret.quantities import quantities
@@ -18,6 +19,7 @@ from pyfret.run.state import State
 if TYPE_CHECKING:
     from pyfret._core import LoadPath, Scene
     from pyfret._util.csv_table import Tables
+    from pyfret._util.labelled_table import Table
 
 __all__ = ["Run", "one_of"]
 
@@ -236,7 +238,7 @@ class Run(OfRun):
             table[name] = (("branch", "part"), values, attrs)
         return table
 
-    def branches(self) -> xr.Dataset:
+    def branches(self) -> Table:
         """Scalars at the end of every branch; energies and work are sums over the branch.
 
         Where the increments were chosen, ``path_error`` is the estimated error that they leave in
@@ -256,10 +258,10 @@ class Run(OfRun):
         if errors := self.dataset.attrs.get("path_error"):
             about = {"units": "1", "long_name": "estimated error of the shear from the increments"}
             table["path_error"] = ("branch", np.asarray(errors, float)[branch[ends]], about)
-        return table
+        return as_table(table)
 
     @quantities
-    def loops(self, *, direction: Literal["x", "y", "torsion"] = "x") -> xr.Dataset:
+    def loops(self, *, direction: Literal["x", "y", "torsion"] = "x") -> Table:
         """Energy and stiffness of every closed cycle of the load path.
 
         Parameters
@@ -275,9 +277,10 @@ class Run(OfRun):
             ``energy_ratio``, ``sliding_ratio`` and ``status``. ``stiffness`` right after the
             reversals, ``secant_stiffness`` [N/m] and half the ``opening`` of the loop [m]. The
             branches that it spans. Of a line contact energies, forces and stiffness are per metre.
-            ``dissipated_error`` and ``energy_ratio_error`` where the run has error bars.
+            ``dissipated_error`` and ``energy_ratio_error`` where the run has error bars. Its
+            ``to_csv`` and ``to_excel`` write it as a table.
         """
-        return loops_of_cycles(self.dataset, self.scene, direction)
+        return as_table(loops_of_cycles(self.dataset, self.scene, direction))
 
     @quantities
     def regimes(self, *, direction: Literal["x", "y", "torsion"] = "x") -> list[str]:

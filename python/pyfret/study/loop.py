@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pyfret._core import OffGridError, Scene
+from pyfret._core import LoadPath, OffGridError, Scene
 from pyfret._util.numbers import in_words
 from pyfret._util.progress import Progress
 from pyfret.quantities import quantities
@@ -36,6 +36,7 @@ def run(
     scene: Source,
     parameters: Mapping[str, Any],
     *,
+    path: LoadPath | None = None,
     combine: Combine = "grid",
     measure: Measure | Sequence[Measure] = DEFAULT,
     executor: Any = None,
@@ -58,6 +59,9 @@ def run(
         ``{"body2.coatings.0.E": [1e11, 2e11], "mu": [0.2, 0.4]}``; ``"mu"`` is short for
         ``"friction.mu"``. A text with its unit, ``"2 um"``, is the number in SI, 2e-6. Names of
         your own where `scene` is a function, which gets the values as they are.
+        ``"W"`` is the normal force of every branch, ``"path.*.W"``.
+    path : LoadPath, optional
+        The load path, in place of the one of a :class:`Scene`, as in :func:`pyfret.solve`.
     combine : "grid" or "zip"
         Every combination of the values, or the values in step: the first of each, then the
         second of each. Samples (SALib, Latin hypercubes) are of the second kind.
@@ -104,6 +108,10 @@ def run(
     ... )  # doctest: +SKIP
     >>> table.map("von_mises")  # doctest: +SKIP
     """
+    if path is not None:
+        if not isinstance(scene, Scene):
+            raise TypeError("path: must be left out, as scene is no Scene; put it into the scene")
+        scene = scene.replace(path=path)
     keys = isinstance(scene, Scene | str | os.PathLike)
     design, measures = Design.from_values(parameters, combine, keys=keys), check_measures(measure)
     check_names(design, measures)

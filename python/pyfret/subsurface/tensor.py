@@ -11,7 +11,7 @@ from pyfret._util.attributes import attribute_error
 from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
-from pyfret._util.numbers import layer_name
+from pyfret._util.numbers import layer_index, layer_name
 from pyfret._util.scene_warnings import warn
 from pyfret.quantities import quantities
 from pyfret.scene.tables import table
@@ -25,6 +25,12 @@ __all__ = ["COMPONENTS", "DISPLACEMENTS", "LABELS", "Stress"]
 
 #: The six components, in their order.
 COMPONENTS = ("s_xx", "s_yy", "s_zz", "s_xy", "s_xz", "s_yz")
+
+#: Names of sections that other programs have, and how they are reached.
+ELSEWHERE = {
+    name: "result.at(-1).stress(x=0.0, y=0.0) is the stress on the line below a point"
+    for name in ("line", "profile", "depth_profile", "along_z")
+}
 
 
 class Stress(Labelled, Figured):
@@ -74,7 +80,7 @@ class Stress(Labelled, Figured):
             return self.dataset.attrs[name]  # type: ignore[no-any-return]
         public = (member for member in dir(type(self)) if not member.startswith("_"))
         names = [*LABELS, *map(str, self.dataset.attrs), *public, "dataset"]
-        raise attribute_error("stress", name, names, {})
+        raise attribute_error("stress", name, names, ELSEWHERE)
 
     def principal(self) -> xr.Dataset:
         """Principal values, the largest first, and unit vectors of their directions."""
@@ -98,7 +104,7 @@ class Stress(Labelled, Figured):
         )
 
     @quantities
-    def maximum(self, of: str = "von_mises", *, layer: int | None = None) -> Extremum:
+    def maximum(self, of: str = "von_mises", *, layer: int | str | None = None) -> Extremum:
         """Give the largest value and its place: a value at a point.
 
         Of a section that was asked for, the largest value on it; of the section that
@@ -112,8 +118,9 @@ class Stress(Labelled, Figured):
         ----------
         of : str
             The measure.
-        layer : int, optional
-            The layer to look in, from the surface down (default: all).
+        layer : int or str, optional
+            The layer to look in (default: all). Its number from the surface down, from 0. Or its
+            name: "coating", "coating 2", "substrate".
 
         Warns
         -----
@@ -128,8 +135,9 @@ class Stress(Labelled, Figured):
         self._section_axis()
         depths = self.dataset.z.values.tolist()
         layers = self.dataset.layer.values.tolist()
-        if layer is not None and layer not in layers:
-            raise ValueError(f"layer = {layer}: must be one of {sorted(set(layers))}")
+        if layer is not None:
+            coatings = len(self.dataset.attrs.get("interfaces", ()))
+            layer = layer_index(layer, coatings, set(layers))
         if self._below is None:
             raise ValueError("maximum() needs the full section; call `stress(...)` first")
         extremum, rises = self._below.maximum(

@@ -9,6 +9,7 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._core import Body, Scene, SurfaceMap, with_error
+from pyfret._util.csv_table import as_table
 from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import length, um
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from pyfret._util.csv_table import Tables
+    from pyfret._util.labelled_table import Table
 
 
 __all__ = ["WearResult"]
@@ -71,7 +73,7 @@ class WearResult(Saveable, Labelled, Figured):
         return "y" if T[1] > T[0] else "x"
 
     @quantities
-    def loops(self, *, direction: Literal["x", "y"] | None = None) -> xr.Dataset:
+    def loops(self, *, direction: Literal["x", "y"] | None = None) -> Table:
         """Energy and stiffness of the friction loop of every block, as :meth:`Result.loops`.
 
         Parameters
@@ -99,7 +101,7 @@ class WearResult(Saveable, Labelled, Figured):
         ]
         energy = np.asarray(d.dissipated_per_cycle, float)[at]
         loops = loops_of_corners(shift, force, energy, self.scene.grid)
-        return loops.assign_coords(block_cycles=d.block_cycles)
+        return as_table(loops.assign_coords(block_cycles=d.block_cycles))
 
     def along(self) -> xr.Dataset:
         """Fields of the blocks on the line along the shear, through the centre of the last contact.
