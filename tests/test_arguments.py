@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import inspect
+import re
 from collections.abc import Callable
 from pathlib import Path
 from types import FunctionType
@@ -199,3 +200,28 @@ def test_what_several_objects_are_is_no_text() -> None:
 def test_numbers_that_leave_nothing_are_refused() -> None:
     with pytest.raises(ValueError, match="both must be positive"):
         fret.experiments.fouvry2007(mu=5e-324)
+
+
+def nested(depth: int = 5000) -> list[object]:
+    """A list in a list in a list."""
+    value: list[object] = []
+    for _ in range(depth):
+        value = [value]
+    return value
+
+
+@pytest.mark.parametrize(
+    ("call", "begin"),
+    [
+        (lambda: fret.SurfaceMap(nested(), spacing=1e-6), "values = ?: must be"),
+        (lambda: fret.Body(fret.Elastic(E=1e9, nu=0.3), coatings=nested()), "coatings: ?: must be"),
+        (
+            lambda: fret.fatigue.evaluate_margin(nested(), "7075", "crossland"),
+            "evaluate_criterion: stress is a list, which it does not take",
+        ),
+    ],
+)
+def test_a_list_without_end_is_refused_by_its_name(call: Callable[[], object], begin: str) -> None:
+    """Compiled functions and functions of Python follow one rule."""
+    with pytest.raises(TypeError, match=f"^{re.escape(begin)}"):
+        call()

@@ -129,8 +129,8 @@ def name_value(arguments: Mapping[str, Any], error: Exception) -> Exception | No
 
 
 def begin(value: object) -> str:
-    """Return the first characters of a value as it is written."""
+    """Return the first characters of a value as it is written, or ``?`` where it has no end."""
     try:
         return repr(value)[:SHOWN]
     except RecursionError:
-        return type(value).__name__
+        return "?"
