@@ -19,14 +19,11 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-    from pyfret._util.labelled_table import Table
-
     #: What makes the datasets of the tables and the axes of their rows, by the names of the tables.
     Tables: TypeAlias = dict[str, Callable[[], tuple[xr.Dataset, Sequence[str] | None]]]
 
 __all__ = [
     "Tabular",
-    "as_table",
     "check_path",
     "choose_columns",
     "data_frame",
@@ -146,13 +143,6 @@ def check_path(path: Any) -> None:
     if not isinstance(path, str | os.PathLike):
         shown = f"{path!r:.60}" if isinstance(path, int | float) else f"<{type(path).__name__}>"
         raise TypeError(f"path = {shown}: must be a path, such as 'table.csv'")
-
-
-def as_table(dataset: xr.Dataset) -> Table:
-    """Return a dataset with ``to_csv`` and ``to_excel``."""
-    from pyfret._util.labelled_table import Table
-
-    return Table(dataset.data_vars, dataset.coords, dataset.attrs)
 
 
 def choose_columns(frame: pd.DataFrame, columns: Sequence[str] | None) -> pd.DataFrame:

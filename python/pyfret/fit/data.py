@@ -131,9 +131,9 @@ class Loops(HoldsArrays):
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw force over shift."""
-        from pyfret.fit.figures import measured_loops
+        from pyfret.fit.loop_figure import measured_loops
 
-        return measured_loops(self, ax)
+        return measured_loops(self.delta, self.T, ax)
 
     @property
     def sliding_slope(self) -> float | None:

@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from pyfret.fit.data import Loops, Measured
+    from pyfret.fit.data import Measured
 
-__all__ = ["curves", "measured_loops", "residuals"]
+__all__ = ["curves", "residuals"]
 
 #: Factors and names of the units that the figures show.
 SHOWN = {"[m]": (1e6, "[um]"), "[N]": (1.0, "[N]")}
@@ -54,17 +54,6 @@ def curves(
     ax.set_ylabel(label)
     legend_title = "\n".join(f"{key} = {value:.4g}" for key, value in values.items())
     ax.legend(title=legend_title, title_fontsize="small", fontsize="small")
-    return ax
-
-
-@styled
-def measured_loops(loops: Loops, ax: Axes | None = None) -> Axes:
-    """Draw the force of measured loops over their shift."""
-    ax = axes(ax)
-    shift, label = shown("shift [m]", loops.delta)
-    ax.set_xlabel(label)
-    ax.plot(shift, loops.T, ".-", color=STICK, markersize=3, linewidth=0.6)
-    ax.set_ylabel("force [N]")
     return ax
 
 

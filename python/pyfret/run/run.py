@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from pyfret._util.attributes import attribute_error
-from pyfret._util.csv_table import as_table
 from pyfret._util.lazy import xr
+from pyfret._util.tables import as_table
 from pyfret._util.text import shown
 from pyfret.quantities import quantities
 from pyfret.run.attributes import OfRun

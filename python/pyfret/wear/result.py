@@ -9,10 +9,10 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._core import Body, Scene, SurfaceMap, with_error
-from pyfret._util.csv_table import as_table
 from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import length, um
+from pyfret._util.tables import as_table
 from pyfret._util.text import shown
 from pyfret._util.toml import parse_toml
 from pyfret.quantities import Length, as_number, quantities
