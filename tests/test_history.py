@@ -16,6 +16,7 @@ from pyfret.history import Spectrum
 from pyfret.history.counting import count_signal, rearranged, turning_points
 from pyfret.history.energy_curve import EnergyCurve
 from pyfret.history.memory import state_weights
+from pyfret.history.scatter import record_scatter
 
 ROWS = json.loads((ROOT / "tests/data/vibration/rows.json").read_text())
 
@@ -407,3 +408,25 @@ def test_counted_loops_are_saved_and_opened(tmp_path: Path) -> None:
     assert again == loops
     assert again.summary() == loops.summary()
     assert "repeats as a block" in loops.summary()
+
+
+@pytest.mark.solves
+def test_the_scatter_of_records_is_that_of_their_envelopes() -> None:
+    # Sums of amplitude^3 and amplitude^8 over 60 records of 2000 cycles, in a band of 4 Hz.
+    spectrum = Spectrum.from_arrays([98.0, 102.0], [0.25, 0.25])
+    history = fret.LoadHistory.from_spectrum(spectrum, 20.0, distribution="rayleigh")
+    d = history.count().dataset
+    a, count = d.amplitude.values, d["count"].values
+    sums = []
+    for seed in range(60):
+        _, values = spectrum.sample(20.0, seed=seed)
+        rows = count_signal(values, "repeat")
+        sums.append([float(rows[:, 2] @ (0.5 * rows[:, 0]) ** m) for m in (3.0, 8.0)])
+    for column, m in zip(np.array(sums).T, (3.0, 8.0), strict=True):
+        scatter = record_scatter(spectrum, a, count, a**m, 20.0)
+        # The standard deviation of 60 records is known to a tenth, of a power of 8 to a quarter.
+        assert column.std() / column.mean() == pytest.approx(scatter, rel=0.1 * m)
+        # Four times as long a record has half of the scatter.
+        assert record_scatter(spectrum, a, count, a**m, 80.0) == pytest.approx(
+            0.5 * scatter, rel=0.02
+        )

@@ -255,6 +255,16 @@ def test_blocks_of_a_history_are_refused_where_they_have_no_meaning() -> None:
     power = fret.wear.Archard(k=1e-15, factor=("power_density", [(0.0, 1.0), (1.0, 2.0)]))
     with pytest.raises(ValueError, match=r"frequency = nothing"):
         fret.wear.solve(scene, history=history, cycles=1, body2=power, progress=False)
+    air = fret.wear.Air(distance="1 mm", power_density=1e3, power_exponent=0.5)
+    with pytest.raises(ValueError, match=r"frequency = nothing: must be given in Hz beside"):
+        fret.wear.solve(
+            scene,
+            history=history,
+            cycles=1,
+            body2=fret.wear.Archard(k=1e-15),
+            air=air,
+            progress=False,
+        )
     with pytest.raises(ValueError, match="path and history"):
         fret.wear.solve(scene, path=PRESSED, history=history, cycles=1, body2=power, progress=False)
     counts = fret.wear.Wear(cycles=1, body2=fret.wear.Archard(k=1e-15), branch_counts=[1.0, -2.0])

@@ -21,13 +21,14 @@ from pyfret._core import Scene
 from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
-from pyfret._util.numbers import um
+from pyfret._util.numbers import format_number, um
 from pyfret.fatigue.cycle_section import sections_of_cycle
 from pyfret.fatigue.damage_errors import damage_errors
 from pyfret.fatigue.damage_law import BelowKnee, DamageLaw, damage_of_loops
 from pyfret.fatigue.loop_damage import JudgedSection
 from pyfret.fatigue.section import Materials, Section, SectionOptions
 from pyfret.history.load_history import LoadHistory
+from pyfret.history.scatter import record_scatter
 from pyfret.history.states import states_of_march
 from pyfret.history.table import HistoryTable
 from pyfret.quantities import Lengths, Numbers, quantities
@@ -42,6 +43,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from pyfret.fatigue.criteria import CriterionName
+    from pyfret.history.spectrum import Spectrum
 
 #: Note on a sum of blocks.
 BLOCKS = "a sum of blocks, each on its own worst plane, without an effect of one block on another"
@@ -101,6 +103,12 @@ class Damage(Saveable, Labelled, Figured):
     def compressive(self) -> int:
         """Number of rows of loops without tension on the worst plane."""
         return int(self.dataset.compressive.sum())
+
+    @property
+    def record_scatter(self) -> float | None:
+        """Standard deviation of the damage of one record over its mean; None: no spectrum."""
+        scatter = self.dataset.attrs.get("record_scatter")
+        return None if scatter is None else float(scatter)
 
     def contributions(self, bins: int = 16) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return edges of amplitude, and the part of the damage that loops in between have."""
@@ -209,7 +217,21 @@ def damage(
     }
     if history.duration is not None:
         attrs["duration"] = history.duration
+    if history.spectrum is not None and history.duration is not None:
+        scatter = scatter_of_record(dataset, history.spectrum, history.duration)
+        attrs["record_scatter"] = scatter
+        attrs["notes"] += (
+            f"\nthe damage of one record of {format_number(history.duration)} s scatters by "
+            f"{_core.rough(100.0 * scatter)} % (standard deviation)"
+        )
     return Damage(dataset.assign_attrs(attrs))
+
+
+def scatter_of_record(dataset: xr.Dataset, spectrum: Spectrum, duration: float) -> float:
+    """Return the standard deviation of the damage of one record, over its mean."""
+    count, part = dataset["count"].values, dataset["part"].values
+    single = np.divide(part, count, out=np.zeros_like(part), where=count > 0.0)
+    return record_scatter(spectrum, 0.5 * dataset["range"].values, count, single, duration)
 
 
 @quantities
@@ -284,5 +306,6 @@ def add_damages(damages: Sequence[Damage], passes: Numbers) -> Damage:
         ),
     }
     attrs.pop("duration", None)
+    attrs.pop("record_scatter", None)
     dataset = loops.assign(damage=total, normal=blocks[leading].dataset.normal)
     return Damage(dataset.assign_attrs(attrs))

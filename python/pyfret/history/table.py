@@ -27,6 +27,7 @@ from pyfret.history.loops import CountedLoops, distinct
 from pyfret.history.marching import Marches
 from pyfret.history.mean_grid import MEANS, SIDES, SIZES, grid_weights, memory_of_loops
 from pyfret.history.memory import amplitude_weights, state_weights
+from pyfret.history.scatter import record_scatter
 from pyfret.history.states import (
     LoopStates,
     branch_ends,
@@ -267,10 +268,10 @@ class HistoryTable:
             float((count * curve.evaluate(amplitude, linear=linear)).sum())
             for curve in (self.curve, self.curve.every_second())
         )
-        # Half of the distance leaves a quarter of the error of straight pieces. The onset of gross
-        # slip is a singular end of cubic ones, so that the whole change counts.
+        # Half of the distance leaves a quarter of the error of straight pieces, and less of cubic
+        # ones. The onset of gross slip is a singular end of these: there the whole change counts.
         change = abs(by_half - by_all) / max(self.total_energy, 1e-300)
-        return change / 3.0 if linear else change
+        return change if self.curve.slides.any() and not linear else change / 3.0
 
     @cached_property
     def energy_errors(self) -> dict[str, float]:
@@ -298,6 +299,15 @@ class HistoryTable:
         return math.fsum(self.energy_errors.values())
 
     @property
+    def record_scatter(self) -> float | None:
+        """Standard deviation of the energy of one record over its mean; None: no spectrum."""
+        spectrum, duration = self.history.spectrum, self.history.duration
+        if spectrum is None or duration is None:
+            return None
+        amplitude, count = loops_as_levels(self.loops)[:, [0, 2]].T
+        return record_scatter(spectrum, amplitude, count, self.energy(amplitude), duration)
+
+    @property
     def notes(self) -> list[str]:
         """Notes on the table: amplitudes, and what its error covers."""
         means = "" if self.ladder.grid is None else f", {self.ladder.grid.outer[0, 0].size} means"
@@ -305,6 +315,11 @@ class HistoryTable:
             f"{self.amplitudes.size} amplitudes{means} marched, "
             f"interpolation {self.interpolation_error:.1e}"
         ]
+        if self.record_scatter is not None:
+            lines.append(
+                f"the energy of one record of {format_number(self.history.duration)} s scatters by "
+                f"{_core.rough(100.0 * self.record_scatter)} % (standard deviation)"
+            )
         if self.is_exact:
             lines.append("memory exact: elastically like bodies, constant normal force")
         elif self.check is not None:
