@@ -91,9 +91,11 @@ def test_a_unit_of_something_else_is_refused() -> None:
         file.read_values({"from": "2 MPa", "to": 1.0, "n": 2}, THICKNESS, "f.toml")
 
 
-def test_the_values_of_a_function_are_its_own() -> None:
-    design = Design.from_values({"thickness": ["2 um"]}, "grid", keys=False)
-    assert design.values(0) == {"thickness": "2 um"}
+def test_a_function_gets_numbers_for_texts_with_units() -> None:
+    values = {"thickness": ["1 um", "2 um"], "film": ["TiN", "100Cr6"], "mixed": ["1 um", "thin"]}
+    design = Design.from_values(values, "grid", keys=False)
+    assert design.parameters["thickness"] == pytest.approx([1e-6, 2e-6])
+    assert design.values(0) == {"thickness": 1e-6, "film": "TiN", "mixed": "1 um"}
 
 
 @pytest.mark.parametrize(("text", "other"), [("2 N", "-2 N"), ("-2 N", "2 N"), (2.0, -2.0)])

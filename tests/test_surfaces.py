@@ -19,8 +19,8 @@ def test_arrays_of_any_kind_are_read(kind: str, tmp_path: Path) -> None:
     file = tmp_path / "heights.npy"
     np.save(file, HEIGHTS.astype(kind))
     for read in (fret.SurfaceMap.from_file, fret.read_surface):
-        surface = read(file, spacing=2e-6)
-        np.testing.assert_array_equal(surface.values, HEIGHTS)
+        surface = read(file, spacing=2e-6, unit="um")
+        np.testing.assert_allclose(surface.values, 1e-6 * HEIGHTS)
         assert surface.spacing == (2e-6, 2e-6)
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 import re
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
-    from collections.abc import Collection
+    from collections.abc import Collection, Sequence
 
 __all__ = [
     "format_number",
@@ -155,8 +155,12 @@ def layer_name(layer: int, coatings: int) -> str:
     return f"coating {layer + 1}" if layer < coatings else "the substrate"
 
 
-def layer_index(layer: int | str, coatings: int, known: Collection[int]) -> int:
-    """Return the index of a layer that is given by it or by its name: "coating", "substrate".
+def layer_index(
+    layer: int | str, coatings: int, known: Collection[int], materials: Sequence[Any] = ()
+) -> int:
+    """Return the index of a layer by its number or its name: "coating", "substrate", "TiN".
+
+    `materials` are those of the layers from the surface down, each an Elastic or a Material.
 
     Raises
     ------
@@ -167,7 +171,13 @@ def layer_index(layer: int | str, coatings: int, known: Collection[int]) -> int:
     if coatings == 1:
         names["coating"] = 0
     word = layer.strip().lower().removeprefix("the ") if isinstance(layer, str) else ""
-    number = names.get(word, -1) if isinstance(layer, str) else layer
+    if isinstance(layer, str):
+        from pyfret._util.layers import layers_made_of
+
+        matching = [names[word]] if word in names else layers_made_of(layer, materials)
+        number = matching[0] if len(matching) == 1 else -1
+    else:
+        number = layer
     if number not in known:
         listed = ", ".join(f"{n} ({layer_name(n, coatings)})" for n in sorted(known))
         raise ValueError(f"layer = {layer!r:.60}: must be one of {listed}, as a number or a name")

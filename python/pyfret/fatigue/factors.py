@@ -20,6 +20,7 @@ import numpy as np
 from pyfret._core import Material, with_error
 from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
+from pyfret._util.numbers import layer_index
 from pyfret.fatigue.cycle_section import (
     choose_depths,
     concat_sections,
@@ -80,9 +81,12 @@ class LoadFactors(Labelled, Figured):
         self._check(of)
         return 1.0 / self.dataset[of]
 
-    def least_of(self, layer: int, of: Factor = "von_mises") -> Extremum:
+    def least_of(self, layer: int | str, of: Factor = "von_mises") -> Extremum:
         """Give the least factor of a layer; a ValueError where it is not judged."""
         self._check(of)
+        if isinstance(layer, str):
+            coatings = len(self.dataset.attrs.get("interfaces", ()))
+            layer = layer_index(layer, coatings, range(coatings + 1))
         if (layer, of) not in self._least:
             self._least[layer, of] = self._search_least(layer, of)
         return self._least[layer, of]

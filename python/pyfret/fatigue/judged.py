@@ -12,7 +12,7 @@ from pyfret._core import degrees, range_of_life
 from pyfret._util.arrays import items
 from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
-from pyfret._util.numbers import layer_name, length, place
+from pyfret._util.numbers import layer_index, layer_name, length, place
 from pyfret._util.text import html
 from pyfret.fatigue import stored
 from pyfret.fatigue.cycles import HistoryKind
@@ -160,8 +160,16 @@ class Life(Saveable, Labelled, Figured):
         """Return the material of a layer; None where it has none."""
         return self._materials[layer]
 
-    def worst_of(self, layer: int) -> Extremum:
+    def _layer(self, layer: int | str) -> int:
+        """Return the number of a layer by its name."""
+        if not isinstance(layer, str):
+            return layer
+        coatings = len(self.dataset.attrs.get("interfaces", ()))
+        return layer_index(layer, coatings, range(coatings + 1), self._materials)
+
+    def worst_of(self, layer: int | str) -> Extremum:
         """Give the worst point of a layer; a ValueError where it is not judged."""
+        layer = self._layer(layer)
         if layer not in self._worst:
             value_of_layer = self.dataset.value.isel(depth=self.dataset.layer.values == layer)
             if not np.isfinite(value_of_layer.values).any():
@@ -212,13 +220,14 @@ class Life(Saveable, Labelled, Figured):
         return assessment.criterion
 
     @quantities
-    def margin_of(self, layer: int) -> LifeRange:
+    def margin_of(self, layer: int | str) -> LifeRange:
         """Give the margin of a layer from the error of its stress alone: for contacts side by side.
 
         It is :meth:`range_of` for the mean stress over the critical distance of its material, at
         the worst point where it has none. The scatter of the material and of its distance is no
         part of it, since they are the same for two contacts of one material.
         """
+        layer = self._layer(layer)
         if not 0 <= layer < len(self._materials):
             raise ValueError(f"layer = {layer}: must be one of {self.layers}")
         return self.range_of(layer, scatter=1.0, L=distance_of_material(self._materials[layer]))
@@ -258,7 +267,7 @@ class Life(Saveable, Labelled, Figured):
     @quantities
     def range_of(
         self,
-        layer: int,
+        layer: int | str,
         *,
         scatter: float | None = None,
         L: Length | None = None,
@@ -274,9 +283,9 @@ class Life(Saveable, Labelled, Figured):
 
         Parameters
         ----------
-        layer : int
-            Index of the layer from the surface down, from 0: coating 1 is 0; of a substrate the
-            number of coatings.
+        layer : int or str
+            "TiN", "coating 1", "substrate", or the number of the layer from the surface down, from
+            0: coating 1 is 0.
         scatter : float, optional
             Ratio of the 90th to the 10th percentile of life (default: 3, or 5
             where numbers of the material are estimates); for a safety factor the ratio of strengths
@@ -286,6 +295,7 @@ class Life(Saveable, Labelled, Figured):
         method : "point", "line", "area" or "volume"
             How the stress is averaged over it, as in :func:`pyfret.fatigue.average`.
         """
+        layer = self._layer(layer)
         default = scatter is None and L is None and method == "line"
         if default and layer in self._ranges:
             return self._ranges[layer]
@@ -319,7 +329,7 @@ class Life(Saveable, Labelled, Figured):
         L: Lengths | None = None,
         *,
         method: Averaging = "line",
-        layer: int | None = None,
+        layer: int | str | None = None,
     ) -> OverDistance:
         """Evaluate the margin over several distances L.
 
@@ -331,8 +341,8 @@ class Life(Saveable, Labelled, Figured):
             distances that reach beyond the layer are left out).
         method : "point", "line", "area" or "volume"
             As in :func:`pyfret.fatigue.average`.
-        layer : int, optional
-            The layer (default: the layer of the worst point).
+        layer : int or str, optional
+            The layer, as in :meth:`range_of` (default: the layer of the worst point).
 
         Returns
         -------
@@ -347,7 +357,7 @@ class Life(Saveable, Labelled, Figured):
         """
         if not self._sections:
             raise ValueError(NO_STRESS)
-        chosen_layer = self.worst.layer if layer is None else layer
+        chosen_layer = self.worst.layer if layer is None else self._layer(layer)
         material = self._materials[chosen_layer]
         borders = [0.0, *self.dataset.attrs["interfaces"], np.inf]
         lengths = (

@@ -155,7 +155,7 @@ class Run(OfRun):
         In J, of a line contact in J/m.
         """
         dissipated = self.dataset["dissipated"]
-        total = dissipated.cumsum("increment")
+        total = dissipated.cumsum("increment").rename("dissipated_energy")
         return total.assign_attrs(
             units=dissipated.attrs["units"], long_name="energy dissipated since the start"
         )

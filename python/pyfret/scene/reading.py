@@ -22,6 +22,8 @@ __all__ = ["Reading", "check_heights", "check_sizes", "remove_mean", "summarize"
 SHORTEST, LONGEST = 1e-7, 0.5
 #: Largest range of heights of an instrument [m]: steps of stages and of stitched maps.
 HIGHEST = 0.5
+#: Largest range of heights without a unit over the longer side of a map.
+STEEPEST = 100.0
 #: Lines whose mean is taken at a time: little memory.
 LINES = 256
 
@@ -63,9 +65,9 @@ def check_sizes(shape: tuple[int, ...], spacing: tuple[float, float]) -> None:
 def check_heights(
     peak_to_valley: float, shape: tuple[int, ...], spacing: tuple[float, float]
 ) -> None:
-    """Refuse heights without a unit that reach further than the map is long."""
+    """Refuse heights without a unit that reach much further than the map is long."""
     side = max(count * step for count, step in zip(shape, spacing, strict=True))
-    if peak_to_valley > side:
+    if peak_to_valley > STEEPEST * side:
         raise StoreError(
             f"the heights reach over {length(peak_to_valley)} if they are in m, and the map is "
             f'{length(side)} long: give their unit, such as unit="um"'

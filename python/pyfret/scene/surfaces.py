@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
+import sys
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
-from pyfret._core import StoreError, SurfaceMap, read_bytes
+from pyfret._core import StoreError, SurfaceMap, read_bytes, shown
 from pyfret._util.scene_warnings import warn
 from pyfret.quantities import Length, quantities
 from pyfret.scene.instruments import read_by_surface_topography
@@ -25,6 +26,11 @@ from pyfret.scene.standard_maps import (
 
 __all__ = ["read_surface"]
 
+#: Note on the direction of the lines of a matrix.
+ALONG_X = (
+    "rows are taken along x, columns along y: values[x, y]. If each row of the file is a line of "
+    "constant y, use SurfaceMap(surface.values.T, spacing=(d_x, d_y))"
+)
 #: Forms that are subtracted, and their names in SurfaceTopography.
 TRENDS = {"center": "center", "plane": "height", "paraboloid": "curvature"}
 Trend: TypeAlias = Literal["center", "plane", "paraboloid"]
@@ -55,7 +61,7 @@ def read_surface(
     unit: str | None = None,
     channel: str | int | None = None,
     missing: Literal["refuse", "crop", "fill"] = "refuse",
-    detrend: Trend | None = None,
+    detrend: Trend | bool | None = None,
 ) -> SurfaceMap:
     """Read a measured surface: X3P, SDF, OPD and all other formats of SurfaceTopography, and text.
 
@@ -81,9 +87,9 @@ def read_surface(
         What becomes of points that were not measured. "refuse": an error with their place. "crop":
         lines are taken off the edges. "fill": the mean of the neighbours, where at most a tenth of
         the points is missing and no hole is wider than ten.
-    detrend : "center", "plane" or "paraboloid", optional
-        Form that is subtracted: the mean, the mean plane, a paraboloid. Default: the mean of the
-        file of an instrument, nothing of arrays and text.
+    detrend : "center", "plane", "paraboloid" or bool, optional
+        Form that is subtracted: the mean, the mean plane, a paraboloid. True is the plane.
+        Default: the mean of the file of an instrument, nothing of arrays and text.
 
     Warns
     -----
@@ -101,7 +107,9 @@ def read_surface(
         measured. If it has several channels, or leaves something open. The message names the
         argument to give.
     """
-    if detrend is not None and detrend not in TRENDS:
+    if isinstance(detrend, bool):
+        detrend = "plane" if detrend else None
+    if detrend is not None and detrend not in list(TRENDS):
         raise ValueError(
             f"detrend = {detrend!r:.60}: must be one of {', '.join(map(repr, TRENDS))}"
         )
@@ -191,7 +199,12 @@ def read_plain(
         text = " ".join(line[0].decode("latin-1").split())
         warn(f"{path}: a line of the head is not read: {text[:100]!r}. Check spacing= against it")
     kind = "numbers" if path.suffix.lower() == ".npy" else "text"
+    # A matrix alone needs the pitch: a head and a list of points have it.
+    is_matrix = spacing is not None
+    kind = f"{kind}, heights taken in m" if unit is None and is_matrix else kind
     summarize(path, shape, surface.spacing, surface.rms, kind)
+    if is_matrix:
+        print(shown(f"{path}: {ALONG_X}"), file=sys.stderr)
     return surface
 
 

@@ -17,6 +17,7 @@ from typing import Any, Literal, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 
+from pyfret import _core
 from pyfret._core import InvalidSceneError, Scene
 from pyfret._util.arrays import items, labels
 from pyfret._util.keywords import nearest_names
@@ -178,6 +179,22 @@ def to_list(values: Any, key: str) -> list[Any]:
     return [to_scene_value(value, key) for value in items(array, key)]
 
 
+def read_quantities(values: list[Any]) -> list[Any]:
+    """Convert texts with units to numbers in SI, unless one of the texts has no unit."""
+    numbers = [read_quantity(value) if isinstance(value, str) else value for value in values]
+    return values if any(number is None for number in numbers) else numbers
+
+
+def read_quantity(text: str) -> float | None:
+    """Return the number in SI of a text such as "2 um"; None of other texts."""
+    number, _, name = text.strip().partition(" ")
+    unit = _core.unit_of(name.strip()) if name else None
+    try:
+        return None if unit is None else float(number) * unit[1]
+    except ValueError:
+        return None
+
+
 def to_scene_value(value: Any, key: str) -> Any:
     """Convert a value to a number, a text, a list or a table of a scene file."""
     if isinstance(value, np.generic | np.ndarray):
@@ -237,13 +254,16 @@ class Design:
     ) -> Design:
         """Make a design of values in any form: lists, arrays, ranges, texts with units.
 
-        Quantities become numbers in SI where the names are `keys` of a scene file.
+        Quantities become numbers in SI. Where the names are no `keys` of a scene file, the unit
+        decides alone, and texts stay texts if one of them has no unit.
         """
         lists = {key: to_list(values, key) for key, values in parameters.items()}
         numbers = {
-            key: [in_si(key, value) if keys else value for value in values]
+            key: [in_si(key, value) for value in values] if keys else read_quantities(values)
             for key, values in lists.items()
         }
+        if not keys:
+            lists = numbers
         for key, values in numbers.items():
             doubt_numbers("", **{SHORT.get(key, key): values})
         return Design(

@@ -58,7 +58,7 @@ def run(
         Values by the keys of a scene file, as after ``fret run --set``, such as
         ``{"body2.coatings.0.E": [1e11, 2e11], "mu": [0.2, 0.4]}``; ``"mu"`` is short for
         ``"friction.mu"``. A text with its unit, ``"2 um"``, is the number in SI, 2e-6. Names of
-        your own where `scene` is a function, which gets the values as they are.
+        your own where `scene` is a function.
         ``"W"`` is the normal force of every branch, ``"path.*.W"``.
     path : LoadPath, optional
         The load path, in place of the one of a :class:`Scene`, as in :func:`pyfret.solve`.

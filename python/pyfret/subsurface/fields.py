@@ -198,7 +198,9 @@ def sampled_stress(
     """The stress of what is loaded, on planes, below a line or below a point."""
     line = Line(*_line(z, at.x, at.y), at.azimuth)
     sampled = _sampled(below, body, grid, _depths(body, z, length), line, displacement=False)
-    return Stress(sampled.assign_attrs(interfaces=interfaces(body), length=length), below)
+    materials = [*(coating.material for coating in body.coatings), body.substrate]
+    attributed = sampled.assign_attrs(interfaces=interfaces(body), length=length)
+    return Stress(attributed, below, materials)
 
 
 def _line(

@@ -19,7 +19,11 @@ from pyfret.subsurface.extremum import Errors, Extremum, Place
 from pyfret.subsurface.line import line_of
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
+
+    from pyfret._util.csv_table import Tables
 
 __all__ = ["COMPONENTS", "DISPLACEMENTS", "LABELS", "Stress"]
 
@@ -32,6 +36,9 @@ ELSEWHERE = {
     for name in ("line", "profile", "depth_profile", "along_z")
 }
 
+#: Numbers that follow from the components at a point, in the order of the columns of a table.
+EQUIVALENT = ("von_mises", "tresca", "s_1", "s_2", "s_3", "hydrostatic")
+
 
 class Stress(Labelled, Figured):
     """The six stresses somewhere below the surface, and what follows from them.
@@ -43,9 +50,16 @@ class Stress(Labelled, Figured):
 
     figure = "stress_map"
 
-    def __init__(self, dataset: xr.Dataset, below: _core.Subsurface | None = None) -> None:
+    def __init__(
+        self,
+        dataset: xr.Dataset,
+        below: _core.Subsurface | None = None,
+        materials: Sequence[_core.Elastic] = (),
+    ) -> None:
         super().__init__(dataset)
         self._below = below
+        #: Materials of the layers from the surface down, the substrate's last.
+        self._materials = list(materials)
 
     def __reduce__(self) -> tuple[type[Stress], tuple[xr.Dataset]]:
         """Pickle the samples, without the tractions above them."""
@@ -53,7 +67,7 @@ class Stress(Labelled, Figured):
 
     def assign_attrs(self, attrs: dict[str, object]) -> Stress:
         """Give the same stress with more attributes of its dataset."""
-        return Stress(self.dataset.assign_attrs(attrs), self._below)
+        return Stress(self.dataset.assign_attrs(attrs), self._below, self._materials)
 
     def _tensor(self) -> NDArray[np.float64]:
         """The components as an array of shape (6, number of points)."""
@@ -81,6 +95,15 @@ class Stress(Labelled, Figured):
         public = (member for member in dir(type(self)) if not member.startswith("_"))
         names = [*LABELS, *map(str, self.dataset.attrs), *public, "dataset"]
         raise attribute_error("stress", name, names, ELSEWHERE)
+
+    def _tables(self) -> Tables:
+        """Return what makes the table: components, equivalent stresses and principal values."""
+        return {
+            "values": lambda: (
+                self.dataset.assign({name: self.measure(name) for name in EQUIVALENT}),
+                None,
+            )
+        }
 
     def principal(self) -> xr.Dataset:
         """Principal values, the largest first, and unit vectors of their directions."""
@@ -120,7 +143,7 @@ class Stress(Labelled, Figured):
             The measure.
         layer : int or str, optional
             The layer to look in (default: all). Its number from the surface down, from 0. Or its
-            name: "coating", "coating 2", "substrate".
+            name: "coating", "coating 2", "substrate", or the name of its material, "TiN".
 
         Warns
         -----
@@ -135,9 +158,9 @@ class Stress(Labelled, Figured):
         self._section_axis()
         depths = self.dataset.z.values.tolist()
         layers = self.dataset.layer.values.tolist()
+        coatings = len(self.dataset.attrs.get("interfaces", ()))
         if layer is not None:
-            coatings = len(self.dataset.attrs.get("interfaces", ()))
-            layer = layer_index(layer, coatings, set(layers))
+            layer = layer_index(layer, coatings, set(layers), self._materials)
         if self._below is None:
             raise ValueError("maximum() needs the full section; call `stress(...)` first")
         extremum, rises = self._below.maximum(
@@ -151,7 +174,6 @@ class Stress(Labelled, Figured):
             **line_of(self.dataset).named(),
         )
         if rises:
-            coatings = len(self.dataset.attrs.get("interfaces", ()))
             layers_said = " and ".join(layer_name(layer, coatings) for layer in rises)
             warn(
                 f"{of} in {layers_said} still rises 8 lengths of the grid away from it: "
@@ -163,7 +185,6 @@ class Stress(Labelled, Figured):
             raise ValueError("the section holds no number")
         value, x, y, z, in_layer, border, error, errors = extremum
         point = Place(x, y, z)
-        coatings = len(self.dataset.attrs.get("interfaces", ()))
         return Extremum(
             value, error, point, in_layer, "Pa", border, Errors(*errors), coatings=coatings
         )

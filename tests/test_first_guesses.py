@@ -1,0 +1,117 @@
+"""First guesses of people who have not seen the package: they work, or are refused."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pyfret as fret
+from conftest import W, sphere_on_flat
+from pyfret._core import measure
+from pyfret._util.numbers import layer_index
+
+PITCH = 2e-6
+X, Y = np.meshgrid(PITCH * np.arange(16), PITCH * np.arange(12), indexing="ij")
+ROUGH = 1e-8 * np.random.default_rng(1).normal(size=X.shape)
+#: A rough plane with a tilt of 0.01 along x [m].
+TILTED = 0.01 * X - 0.004 * Y + ROUGH
+
+
+def write_map(folder: Path, kind: str) -> tuple[Path, dict[str, object]]:
+    path = folder / f"map.{kind}"
+    if kind == "npy":
+        np.save(path, TILTED)
+        return path, {"spacing": PITCH}
+    if kind == "xyz":
+        columns = [1e6 * X.ravel(), 1e6 * Y.ravel(), 1e6 * TILTED.ravel()]
+        np.savetxt(path, np.column_stack(columns), header="x [um],y [um],z [um]", delimiter=",")
+        return path, {"unit": "um"}
+    np.savetxt(path, 1e6 * TILTED, delimiter=",")
+    return path, {"spacing": "2 um", "unit": "um"}
+
+
+@pytest.mark.parametrize("kind", ["csv", "xyz", "npy"])
+@pytest.mark.parametrize("form", [True, "plane", "paraboloid"])
+def test_every_kind_of_file_is_detrended(kind: str, form: object, tmp_path: Path) -> None:
+    path, options = write_map(tmp_path, kind)
+    surface = fret.read_surface(path, detrend=form, **options)  # type: ignore[arg-type]
+    assert surface.fit_form("plane").slopes == pytest.approx((0.0, 0.0), abs=1e-12)
+    raw = fret.read_surface(path, **options)  # type: ignore[arg-type]
+    assert raw.fit_form("plane").slopes == pytest.approx((0.01, -0.004), rel=0.2)
+    level = raw.level("plane" if form is True else form)  # type: ignore[arg-type]
+    np.testing.assert_allclose(surface.values, level.values, atol=1e-15)
+
+
+@pytest.mark.parametrize("form", ["banana", "linear", "", 3, ["plane"]])
+def test_an_unknown_form_is_refused_for_every_kind_of_file(form: object, tmp_path: Path) -> None:
+    for kind in ("csv", "xyz", "npy"):
+        path, options = write_map(tmp_path, kind)
+        with pytest.raises((ValueError, TypeError), match=r"detrend.*'plane'"):
+            fret.read_surface(path, detrend=form, **options)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("unit", ["um", "nm", "mm"])
+def test_heights_in_another_unit_are_not_taken_for_metres(unit: str, tmp_path: Path) -> None:
+    factor = {"um": 1e6, "nm": 1e9, "mm": 1e3}[unit]
+    path = tmp_path / "map.csv"
+    # A step of 20 um on a side of 32 um.
+    np.savetxt(path, factor * (TILTED + 2e-5 * (X.mean() < X)), delimiter=",")
+    with pytest.raises(fret.errors.StoreError, match=r"heights reach over .* give their unit"):
+        fret.read_surface(path, spacing=PITCH)
+    assert fret.read_surface(path, spacing=PITCH, unit=unit).rms < 2e-5
+
+
+def test_the_direction_of_a_matrix_is_printed(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for kind, printed in (("csv", True), ("npy", True), ("xyz", False)):
+        path, options = write_map(tmp_path, kind)
+        fret.read_surface(path, **options)  # type: ignore[arg-type]
+        text = capsys.readouterr().err
+        assert ("rows are taken along x" in text) is printed
+        assert ("heights taken in m" in text) is (kind == "npy")
+
+
+@pytest.fixture(scope="module")
+def coated() -> fret.Result:
+    path = fret.LoadPath.start().normal(W, increments=2).cycles(1, T_x=90.0, increments=4)
+    return fret.solve(sphere_on_flat(ratio=2.0, n=16), path, progress=False)
+
+
+@pytest.mark.solves
+def test_a_table_of_stress_has_what_designers_ask_for(coated: fret.Result) -> None:
+    for stress in (coated.at(-1).stress(), coated.at(-1).stress(x=0.0, y=0.0)):
+        frame = stress.to_dataframe()
+        tensor = np.stack(
+            [frame[f"{name} [Pa]"] for name in ("s_xx", "s_yy", "s_zz", "s_xy", "s_xz", "s_yz")]
+        )
+        for name in ("von_mises", "tresca", "s_1", "s_2", "s_3", "hydrostatic"):
+            np.testing.assert_allclose(frame[f"{name} [Pa]"], measure(name, tensor))
+
+
+@pytest.mark.solves
+def test_a_quantity_has_the_name_in_its_table_that_it_was_asked_by(coated: fret.Result) -> None:
+    for name in (n for n in dir(coated) if not n.startswith("_")):
+        column = getattr(coated, name, None)
+        if getattr(column, "dims", None) == ("increment",):
+            assert column.name == name
+
+
+def test_a_layer_has_the_name_of_its_material() -> None:
+    layers = [fret.material(name, nu=0.25) for name in ("TiN", "CrN", "100Cr6")]
+    assert [layer_index(name, 2, range(3), layers) for name in ("TiN", "CrN", "100Cr6")] == [
+        0,
+        1,
+        2,
+    ]
+    alloys = fret.fatigue.Materials()
+    known = [None, None, alloys["Ti-6Al-4V"]]
+    assert (
+        layer_index("Ti6Al4V", 2, range(3), known)
+        == layer_index(known[2].name, 2, range(3), known)
+        == 2
+    )  # type: ignore[union-attr]
+    with pytest.raises(ValueError, match="must be one of 0"):
+        layer_index("TiN", 2, range(3), [layers[0], layers[0], layers[2]])
