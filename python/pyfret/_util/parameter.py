@@ -70,6 +70,7 @@ MADE = {
     "LoadFactors": "load factors, result.load_factors(s_y)",
     "CountedLoops": "counted loops, history.count()",
     "Cracks": "cracks, result.crack(x)",
+    "Arrest": "the arrest of a crack, fret.study.Arrest(threshold)",
     "WearResult": "a run of wear, fret.wear.solve(scene, wear)",
     "SideBySide": "a comparison, fret.compare({...}, scene, path)",
     "Tabulated": "a study, fret.study.run(scene, {...}, measure=...)",
