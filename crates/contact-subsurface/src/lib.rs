@@ -32,6 +32,7 @@ mod doubled_cells;
 mod eigenstress;
 mod energy;
 mod envelope;
+mod excess;
 mod extremum;
 mod largest;
 mod line;

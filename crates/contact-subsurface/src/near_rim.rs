@@ -12,9 +12,10 @@ use std::ops::Range;
 use contact_core::convolution::Tractions;
 use contact_core::kernels::{DepthKernel, Stress};
 use contact_core::scene::{Body, Grid};
-use contact_core::zones::{CellTractions, Continued};
+use contact_core::zones::Continued;
 
-use super::divided::{Divided, Division, Fineness, Part, slopes};
+use super::divided::{Divided, Division, Fineness, Whole, slopes};
+use super::excess::ExcessTables;
 use super::loads::{Plane, snap_to_half_cells};
 use super::{Depth, Side};
 
@@ -44,6 +45,8 @@ pub(super) struct NearRim {
     plane: Plane,
     side: Side,
     states: Vec<Continued>,
+    /// Difference of continued and constant tractions in the cells near borders, by state.
+    excess: Vec<ExcessTables>,
 }
 
 /// Parts of the cells around a sample.
@@ -88,10 +91,17 @@ impl NearRim {
         let of_state = |(n, tractions): (usize, &Tractions<'_>)| {
             Continued::new(grid, tractions, stick.get(n).copied(), &window, thin)
         };
+        let states: Vec<_> = states.iter().enumerate().map(of_state).collect();
+        let flat = grid.ny == 1;
+        let tables = states.iter().map(|state| {
+            let is_near = |cell: (usize, usize)| state.distance(cell) <= FARTHEST;
+            ExcessTables::new(&window, flat, is_near)
+        });
         Self {
             plane: Plane::new(grid, false),
             side,
-            states: states.iter().enumerate().map(of_state).collect(),
+            excess: tables.collect(),
+            states,
         }
     }
 
@@ -115,22 +125,30 @@ impl NearRim {
         depth: Depth,
         offset: (f64, f64),
     ) -> Option<Parts> {
-        self.divide(kernel, depth, offset, Fineness::shared(self.is_flat()))
+        let fineness = Fineness::shared(self.is_flat());
+        self.divide(kernel, depth, offset, fineness, &|_| true, true)
     }
 
-    /// The parts around one point, which may lie on a border.
+    /// The parts around one point in a cell, which may lie on a border, for some states. Cells in
+    /// which the tractions of all these states are constant have none.
     pub(super) fn parts_at_point(
         &self,
         kernel: &DepthKernel<Stress, 10, 6>,
         depth: Depth,
-        offset: (f64, f64),
+        (cell, offset): ((usize, usize), (f64, f64)),
+        states: &[usize],
     ) -> Option<Parts> {
-        self.divide(
-            kernel,
-            depth,
-            offset,
-            Fineness::single_point(self.is_flat()),
-        )
+        let states = || states.iter().map(|n| &self.states[*n]);
+        let varies = |(k, l): (isize, isize)| {
+            let at = cell
+                .0
+                .checked_add_signed(k)
+                .zip(cell.1.checked_add_signed(l));
+            at.is_some_and(|at| states().any(|state| state.slopes(at).is_some()))
+        };
+        let is_smooth = states().any(|state| state.distance(cell) > SMOOTH);
+        let fineness = Fineness::single_point(self.is_flat());
+        self.divide(kernel, depth, offset, fineness, &varies, is_smooth)
     }
 
     fn is_flat(&self) -> bool {
@@ -143,6 +161,8 @@ impl NearRim {
         depth: Depth,
         offset: (f64, f64),
         fineness: Fineness,
+        varies: &dyn Fn((isize, isize)) -> bool,
+        beyond: bool,
     ) -> Option<Parts> {
         let Plane { n, d, .. } = self.plane;
         let z = self.depth_in_cells(depth);
@@ -173,7 +193,9 @@ impl NearRim {
                 cache: &cache,
             };
             let mut parts = Vec::new();
-            divide_cell.add_thirds(&mut parts, (0.0, 0.0), 1.0, 1);
+            if varies((k, l)) {
+                divide_cell.add_thirds(&mut parts, Whole::CELL);
+            }
             Divided {
                 from: (k, l),
                 slopes: slopes(&parts),
@@ -182,7 +204,11 @@ impl NearRim {
         };
         let cells: Vec<Divided> = cells.map(divide_cell).collect();
         Some(Parts {
-            beyond: self.response_beyond(kernel, &cells, offset, fineness, z),
+            beyond: if beyond {
+                self.response_beyond(kernel, &cells, offset, fineness, z)
+            } else {
+                [[[0.0; 3]; 6]; 2]
+            },
             cells,
             offset,
             on_surface: depth.z <= 0.0,
@@ -281,7 +307,7 @@ impl NearRim {
         (i, j): (usize, usize),
         stress: &mut [f64; 6],
     ) {
-        let state = &self.states[state];
+        let (state, tables) = (&self.states[state], &self.excess[state]);
         let mut correction = [0.0; 6];
         let mut add = |response: &[[f64; 3]; 6], q: [f64; 3]| {
             for (stress, row) in correction.iter_mut().zip(response) {
@@ -302,9 +328,9 @@ impl NearRim {
             if state.distance(cell) > FARTHEST {
                 let within = divided.slopes.iter().zip(slopes(cell));
                 within.for_each(|(response, q)| add(response, q));
-            } else if let Some(within) = state.tractions_within(cell) {
-                for Part { at, response } in &divided.parts {
-                    add(response, excess(&within, *at));
+            } else if let Some(table) = tables.fetch(state, cell) {
+                for part in &divided.parts {
+                    add(&part.response, table.on_part(part));
                 }
             }
         }
@@ -318,10 +344,4 @@ impl NearRim {
             }
         }
     }
-}
-
-/// Difference of continued and constant tractions at an offset in a cell \[Pa\].
-fn excess(within: &CellTractions, offset: (f64, f64)) -> [f64; 3] {
-    let q = within.evaluate(offset);
-    std::array::from_fn(|c| q[c] - within.constant[c])
 }

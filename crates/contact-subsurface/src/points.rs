@@ -96,15 +96,16 @@ impl Points {
                 }
                 let Some(rim) = &self.loaded.rim else { return };
                 let (cell, offset) = NearRim::locate(&self.loaded.grid, points[n].0, points[n].1);
-                let near = |(state, _): &(usize, _)| rim.is_near(*state, depth, cell);
-                let values = &mut values[..states];
-                let mut near = values.iter_mut().enumerate().filter(near).peekable();
-                let parts = near
-                    .peek()
-                    .and_then(|_| rim.parts_at_point(kernel, depth, offset));
-                let Some(parts) = parts else { return };
-                for (state, stress) in near {
-                    rim.add_correction(&parts, state, cell, stress);
+                let is_near = |state: &usize| rim.is_near(*state, depth, cell);
+                let near: Vec<usize> = (0..states).filter(is_near).collect();
+                if near.is_empty() {
+                    return;
+                }
+                let Some(parts) = rim.parts_at_point(kernel, depth, (cell, offset), &near) else {
+                    return;
+                };
+                for state in near {
+                    rim.add_correction(&parts, state, cell, &mut values[state]);
                 }
             })?;
         for (state, stresses) in values_by_state.iter_mut().enumerate() {
