@@ -13,10 +13,12 @@ use contact_subsurface::{Border, Depth, Line, Moments};
 use super::history::History;
 use super::prepared_points::PreparedPoints;
 
-/// Most memory of the histories of sections, of prepared points, and of moments \[bytes\].
-const MOST_HISTORIES: usize = 96 << 20;
-const MOST_POINTS: usize = 64 << 20;
-const MOST_MOMENTS: usize = 32 << 20;
+/// Most memory of the histories of sections \[bytes\].
+pub const MOST_HISTORIES: usize = 96 << 20;
+/// Most memory of prepared points \[bytes\].
+pub const MOST_POINTS: usize = 64 << 20;
+/// Most memory of moments \[bytes\].
+pub const MOST_MOMENTS: usize = 32 << 20;
 /// Most lines whose borders are kept.
 const MOST_BORDERS: usize = 64;
 

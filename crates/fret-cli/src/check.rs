@@ -11,6 +11,7 @@ use contact_core::{Error, Scene};
 use contact_wear::{Cycling, Wear};
 use serde_json::{Map, Value, json};
 
+use crate::answer_memory::AnswerMemory;
 use crate::failure::Failure;
 use crate::json::{NO_HERTZ, or_missing, pretty};
 use crate::layout::Page;
@@ -121,6 +122,7 @@ fn numbers(
             "convolutions": "1",
             "memory.needed": "bytes",
             "memory.available": "bytes",
+            "memory.answers": "bytes",
         },
         "a_H": or_missing(json!(hertz.map(|h| h.a)), NO_HERTZ),
         "p_H": or_missing(json!(hertz.map(|h| h.p0)), NO_HERTZ),
@@ -137,7 +139,14 @@ fn numbers(
             "W_max": scene.path.W_max(),
         },
         "convolutions": work.convolutions,
-        "memory": { "needed": plan.memory(scene), "available": available_memory() },
+        "memory": {
+            "needed": plan.memory(scene),
+            "available": available_memory(),
+            "answers": or_missing(
+                json!(AnswerMemory::estimate(scene, work.increments[1]).as_ref().map(AnswerMemory::to_json)),
+                NO_HERTZ,
+            ),
+        },
         "text": text,
     })
 }
@@ -207,6 +216,12 @@ fn description(scene: &Scene, plan: &Plan, work: &Work) -> Vec<(&'static str, St
         "memory",
         format!("about {:.0} MB of {:.0} MB", needed / 1e6, available / 1e6),
     );
+    for text in AnswerMemory::estimate(scene, work.increments[1])
+        .iter()
+        .flat_map(AnswerMemory::describe)
+    {
+        line("answers", text);
+    }
     for rule in &plan.lines {
         line("plan", rule.to_string());
     }

@@ -6,6 +6,7 @@
 
 #![forbid(unsafe_code)]
 
+mod answer_memory;
 mod check;
 mod failure;
 mod json;
