@@ -23,6 +23,7 @@ import numpy as np
 from tables import table, write_between_marks
 
 import pyfret as fret
+from pyfret import _core
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -181,7 +182,9 @@ def measure(kind: str, cells: int, repeat: int) -> dict[str, Any]:
             answer["change"] = abs(by_depths.value - known.value)
         answers[question.title] = answer
     together = fret.Result(run.dataset)
+    tables = _core.depth_tables_made()
     whole, _ = timed(lambda: [question.ask(together, None) for question in asked])
+    row["tables"] = _core.depth_tables_made() - tables
     answers["all of these of one result"] = {"ratio": whole / unit}
     return row | {"answers": answers}
 
@@ -195,6 +198,7 @@ def tabulate(rows: list[dict[str, Any]]) -> str:
     for title in titles:
         answers = [row["answers"].get(title) for row in rows]
         lines.append([title, *("" if of is None else f"{of['ratio']:.2g}" for of in answers)])
+    lines.append(["kernel tables made for all of these", *(str(row["tables"]) for row in rows)])
     for title in titles[:-1]:
         lines.append([f"{title}: error", *(share(row["answers"].get(title)) for row in rows)])
     return table(heads, lines)

@@ -3775,6 +3775,9 @@ def dang_van_path(stress: ArrayLike) -> NDArray[np.float64]:
 def degrees(angle: float) -> str:
     """An angle [degrees] to a tenth, with its unit."""
 
+def depth_tables_made() -> int:
+    """Return the number of kernel tables below layers that this process has made."""
+
 def depths(body: Body, z: Sequence[float]) -> tuple[list[float], list[int]]:
     """Depths [m] with their layers; on an interface both, the upper one first."""
 

@@ -31,6 +31,12 @@ pub(crate) fn chosen_depths(
     Ok(depths.iter().map(|d| (d.z, d.layer)).unzip())
 }
 
+/// Return the number of kernel tables below layers that this process has made.
+#[pyfunction]
+pub(crate) fn depth_tables_made() -> u64 {
+    contact_core::kernels::depth_tables_made()
+}
+
 /// Depths [m], each with its layer.
 pub(crate) fn in_layers(z: &[f64], layer: &[usize]) -> PyResult<Vec<Depth>> {
     if z.len() != layer.len() {
