@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from typing import Any
 
 import numpy as np
 import pytest
 
 import pyfret as fret
-from pyfret.snapshot import Snapshot
+from pyfret._core import measure
+from pyfret.study import stresses
+from pyfret.subsurface.contact import sample_borders, sample_sections
+from pyfret.subsurface.tensor import COMPONENTS
 
 STRESSES = ("von_mises", "s_1", "tresca")
 
@@ -30,29 +32,48 @@ def run() -> fret.Result:
 
 
 @pytest.fixture
-def sampled(monkeypatch: pytest.MonkeyPatch) -> Counter[int]:
-    """Count the sections of each increment that are computed."""
-    count: Counter[int] = Counter()
-    stress = Snapshot.stress
+def sampled(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Count the states of each evaluation of sections."""
+    counts: list[int] = []
 
-    def counted(self: Snapshot, *args: Any, **options: Any) -> Any:
-        count[int(self.increment)] += 1
-        return stress(self, *args, **options)
+    def counted(states: list[fret.Snapshot], **options: Any) -> Any:
+        counts.append(len(states))
+        return sample_sections(states, **options)
 
-    monkeypatch.setattr(Snapshot, "stress", counted)
-    return count
+    monkeypatch.setattr(stresses, "sample_sections", counted)
+    return counts
 
 
 @pytest.mark.solves
-def test_stresses_of_all_measures_are_sampled_once(run: fret.Result, sampled: Counter[int]) -> None:
+def test_stresses_of_all_measures_are_sampled_once(run: fret.Result, sampled: list[int]) -> None:
     fresh = fret.Result(run.dataset)
     together = fret.study.answers(fresh, [*STRESSES, "p_max"])
-    assert set(sampled.values()) == {1}
+    assert len(sampled) == 1
     for name in STRESSES:
         alone = fret.study.answers(fret.Result(run.dataset), name)
         for side in ("", "_low", "_high"):
             np.testing.assert_array_equal(together[name + side], alone[name + side])
         assert together[name].attrs == alone[name].attrs
+
+
+@pytest.mark.solves
+@pytest.mark.parametrize("body_number", [1, 2])
+def test_sections_together_are_the_sections_of_each(run: fret.Result, body_number: int) -> None:
+    residual = (-50e6, 0.0) if body_number == 2 else None
+    states = [run.at(int(n)) for n in run.dataset.saved_increment.values]
+    # The last one is sheared in another direction: its section lies below another line.
+    turned = run.scene.path.force(T_x=3.0, T_y=4.0, increments=2)
+    states.append(fret.solve(run.scene.replace(path=turned), progress=False).at(-1))
+    sections = sample_sections(states, body_number=body_number, residual=residual)
+    for state, (samples, layers) in zip(states, sections, strict=True):
+        alone = state.stress(body_number=body_number, residual=residual)
+        components = np.stack([alone.dataset[name].values for name in COMPONENTS])
+        np.testing.assert_allclose(samples, components, rtol=1e-9, atol=1.0)
+        assert layers == alone.dataset.layer.values.tolist()
+        borders = sample_borders(state, body_number=body_number, residual=residual)
+        rims = [alone.rims().measure("s_1"), alone.stick_borders().measure("s_1")]
+        expected = sorted(value for field in rims for value in field.values.tolist())
+        np.testing.assert_allclose(np.sort(measure("s_1", borders)), expected, rtol=1e-9)
 
 
 @pytest.mark.solves

@@ -20,7 +20,7 @@ from pyfret.fatigue.cycles import cycle_increments
 from pyfret.run.summary import directions
 from pyfret.study.answer import Answer
 from pyfret.study.measures import Reasoned
-from pyfret.study.stresses import largest_of_sections, sample_section
+from pyfret.study.stresses import largest_of_sections, sample_together
 from pyfret.wear.runs import solve_until_refused
 
 if TYPE_CHECKING:
@@ -126,12 +126,9 @@ def branch_ends(result: Result) -> list[int]:
 def tension(result: Result, candidate: Candidate, duty: Duty) -> Answered:
     """Find the largest principal stress of the body at the ends of the branches of the cycle."""
     last = candidate.layers - 1
-    states = [
-        sample_section(
-            result.at(n).stress(body_number=duty.body_number, residual=candidate.residual)
-        )
-        for n in branch_ends(result)
-    ]
+    states = sample_together(
+        [result.at(n) for n in branch_ends(result)], duty.body_number, candidate.residual
+    )
     worst = largest_of_sections(states, "s_1")
     numbers = {"tension": Answer.from_error(worst.value, worst.error)}
     places = {

@@ -4,15 +4,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 from zlib import crc32
 
 import numpy as np
 
 from pyfret._core import measure
-from pyfret.quantities import part
+from pyfret.quantities import LayerStresses, as_layers, part
 from pyfret.study.answer import NO_ANSWER, Answer
-from pyfret.subsurface.contact import sample_interfaces, stress_at_interfaces
+from pyfret.subsurface.contact import (
+    sample_borders,
+    sample_interfaces,
+    sample_sections,
+    stress_at_interfaces,
+)
 from pyfret.subsurface.tensor import LABELS
 
 if TYPE_CHECKING:
@@ -29,6 +36,8 @@ __all__ = ["LargestStress", "stress_measure"]
 #: Largest relative difference of a largest stress and the highest sample of its section at which
 #: the samples show the increment of the largest stress.
 SECTION_TOLERANCE = 0.05
+#: Largest factor of the stress on a border over the highest sample of the section.
+CUSP = 2.0
 #: Largest stresses that may be compression; the others are absolute values.
 SIGNED = ("interface_peel",)
 
@@ -38,20 +47,40 @@ def on_interfaces(name: str) -> bool:
     return name.startswith("interface")
 
 
-class SampledState(NamedTuple):
-    """The stress below a body in one state: on its section, and where borders cross the section."""
+@dataclass(frozen=True)
+class SampledState:
+    """The stress below a body in one state: on its section, and where borders cross the section.
 
-    section: Stress
-    borders: tuple[Stress, ...]
+    Sections of many states are sampled together, which takes a third to a sixth of the time.
+    """
 
-    def largest(self, name: str, layer: int | None = None) -> float:
-        """Return the highest sample of a stress, rims of the contact included; in a `layer`."""
-        field = self.section.measure(name)
-        if layer is not None:
-            field = field.isel(depth=self.section.dataset.layer.values == layer)
-        borders = self.borders if layer in (None, 0) else ()
-        samples = [field, *(border.measure(name) for border in borders)]
-        return max(float(sample.max()) for sample in samples if sample.size)
+    state: Snapshot
+    body_number: int
+    residual: LayerStresses | None
+    samples: NDArray[np.float64]
+    layers: NDArray[np.int64]
+
+    @property
+    def section(self) -> Stress:
+        """Stress on the section, for the search of the largest value."""
+        return self.state.stress(body_number=self.body_number, residual=self.residual)
+
+    @cached_property
+    def borders(self) -> NDArray[np.float64]:
+        """Stress on the surface where rims and stick borders cross the section."""
+        residual = as_layers(self.residual)
+        return sample_borders(self.state, body_number=self.body_number, residual=residual)
+
+    def highest(self, name: str, layer: int | None = None) -> float:
+        """Return the highest sample of a stress on the section; in a `layer`."""
+        samples = self.samples if layer is None else self.samples[:, self.layers == layer]
+        return float(measure(name, np.reshape(samples, (6, -1))).max())
+
+    def highest_on_borders(self, name: str, layer: int | None = None) -> float:
+        """Return the highest stress on borders; in a `layer`."""
+        if layer not in (None, 0) or not self.borders.size:
+            return -math.inf
+        return float(measure(name, self.borders).max())
 
 
 class InterfaceState(NamedTuple):
@@ -69,9 +98,13 @@ class InterfaceState(NamedTuple):
         """Stress on both sides of the interfaces, for the search of the largest value."""
         return stress_at_interfaces(self.state, body_number=self.body_number)
 
-    def largest(self, name: str, layer: int | None = None) -> float:
+    def highest(self, name: str, layer: int | None = None) -> float:
         """Return the highest sample of a stress; interfaces have no layer."""
         return float(measure(name, self.samples).max())
+
+    def highest_on_borders(self, name: str, layer: int | None = None) -> float:
+        """Return no stress: interfaces lie below the borders."""
+        return -math.inf
 
 
 #: Most memory of sections that the stress measures of a result share [bytes].
@@ -100,15 +133,28 @@ def sample_states(
         ]
         result.shared[section_kind] = (key, at_interfaces)
         return at_interfaces
-    sampled = [sample_section(state.stress(body_number=body_number)) for state in states]
-    if sum(state.section.dataset.nbytes for state in sampled) <= SHARED_SECTIONS:
+    sampled = sample_together(states, body_number)
+    if sum(state.samples.nbytes for state in sampled) <= SHARED_SECTIONS:
         result.shared[section_kind] = (key, sampled)
     return sampled
 
 
-def sample_section(section: Stress) -> SampledState:
-    """Sample a section, and the surface where borders of the contact cross it."""
-    return SampledState(section, (section.rims(), section.stick_borders()))
+def sample_together(
+    states: Sequence[Snapshot], body_number: int, residual: LayerStresses | None = None
+) -> list[SampledState]:
+    """Sample the sections of states, and the surface where borders of the contact cross them."""
+    layers_stress = as_layers(residual)
+    sections = sample_sections(states, body_number=body_number, residual=layers_stress)
+    return [
+        SampledState(
+            state,
+            body_number,
+            residual,
+            samples,
+            np.asarray(layers),
+        )
+        for state, (samples, layers) in zip(states, sections, strict=True)
+    ]
 
 
 def largest_of_sections(
@@ -119,7 +165,13 @@ def largest_of_sections(
     The ascent starts below the state with the highest sample. Where the largest value is farther
     from that sample than `SECTION_TOLERANCE`, all states are searched.
     """
-    tops = [state.largest(name, layer) for state in states]
+    tops = [state.highest(name, layer) for state in states]
+    # A cusp on a border exceeds the samples beside it by less than this factor.
+    least = max(tops) / CUSP if max(tops) > 0.0 else -math.inf
+    tops = [
+        max(top, state.highest_on_borders(name, layer)) if top >= least else top
+        for top, state in zip(tops, states, strict=True)
+    ]
     highest = int(np.argmax(tops))
     largest = states[highest].section.maximum(name, layer=layer)
     if abs(largest.value - tops[highest]) <= SECTION_TOLERANCE * abs(largest.value):

@@ -10,6 +10,7 @@ from pyfret import _core
 from pyfret.scene.warnings import doubt_layers
 from pyfret.subsurface import fields
 from pyfret.subsurface.line import Line, line_through_point, main_line
+from pyfret.subsurface.moments import states_of
 from pyfret.subsurface.plastic import eigenstress
 from pyfret.subsurface.tensor import Stress
 
@@ -24,7 +25,9 @@ if TYPE_CHECKING:
 
 __all__ = [
     "displacement_below",
+    "sample_borders",
     "sample_interfaces",
+    "sample_sections",
     "stress_at_interfaces",
     "stress_below",
     "write_below",
@@ -75,6 +78,66 @@ def sample_interfaces(state: State, *, body_number: int = 2) -> NDArray[np.float
     upper_layers = list(range(len(depths)))
     section = main_line(state).named()
     return np.reshape(loaded.section(depths, upper_layers, displacement=False, **section), (6, -1))
+
+
+#: Most memory of sections that are computed together [bytes].
+TOGETHER = 32e6
+#: Lines nearer than this part of a cell, and angles nearer than this [rad], are the same.
+SAME_LINE = 1e-6
+
+
+def sample_sections(
+    states: Sequence[State],
+    *,
+    body_number: int = 2,
+    residual: Sequence[ArrayLike] | None = None,
+) -> list[tuple[NDArray[np.float64], list[int]]]:
+    """Return the stress of states on the sections that :func:`stress_below` chooses.
+
+    Each array has the shape (6, depths, places). The layers of the depths stand beside it. States
+    whose sections lie below one line share their kernels, which cost as much as ten states.
+    """
+    groups: dict[tuple[object, ...], list[int]] = {}
+    lines = [main_line(state) for state in states]
+    for n, (state, line) in enumerate(zip(states, lines, strict=True)):
+        cell = SAME_LINE * state.scene.grid.dx
+        steps = (cell, cell, SAME_LINE)
+        key = [
+            None if at is None else round(at / step) for at, step in zip(line, steps, strict=True)
+        ]
+        groups.setdefault((*key, state.length), []).append(n)
+    sampled: dict[int, tuple[NDArray[np.float64], list[int]]] = {}
+    for members in groups.values():
+        first = states[members[0]]
+        body, grid = first.body(body_number), first.scene.grid
+        z, layers = fields.choose_depths(body, None, first.length)
+        size = 48.0 * len(z) * max(grid.nx, grid.ny)
+        count = max(int(TOGETHER / size), 1)
+        for start in range(0, len(members), count):
+            part = members[start : start + count]
+            sections = _core.section_of_states(
+                body,
+                states_of([states[n] for n in part], body_number),
+                z,
+                layers,
+                residual=residual,
+                body_number=body_number,
+                **lines[members[0]].named(),
+            )
+            sampled |= {n: (section, layers) for n, section in zip(part, sections, strict=True)}
+    return [sampled[n] for n in range(len(states))]
+
+
+def sample_borders(
+    state: State, *, body_number: int = 2, residual: Sequence[ArrayLike] | None = None
+) -> NDArray[np.float64]:
+    """Return the surface stress where the chosen section crosses rims and stick borders.
+
+    The array has the six components, then the crossings.
+    """
+    loaded = loaded_by(state, body_number, bulk=True, residual=residual)
+    crossings = loaded.borders(**main_line(state).named())
+    return loaded.points([(x, y, 0.0, 0) for x, y, *_ in crossings])[0].T
 
 
 def with_contact(below: Stress, state: State, *, anywhere: bool) -> Stress:

@@ -39,7 +39,7 @@ __all__ = ["Stress", "displacement", "envelope", "stress", "write_volume"]
 MOST_DEPTHS = 1_000_000
 
 
-def _depths(body: Body, z: ArrayLike | None, length: float) -> tuple[list[float], list[int]]:
+def choose_depths(body: Body, z: ArrayLike | None, length: float) -> tuple[list[float], list[int]]:
     """Depths with their layers: those given, or those that the layers ask for."""
     if z is None:
         return _core.chosen_depths(body, a=length, deepest=2.0 * length)
@@ -197,7 +197,7 @@ def sampled_stress(
 ) -> Stress:
     """The stress of what is loaded, on planes, below a line or below a point."""
     line = Line(*_line(z, at.x, at.y), at.azimuth)
-    sampled = _sampled(below, body, grid, _depths(body, z, length), line, displacement=False)
+    sampled = _sampled(below, body, grid, choose_depths(body, z, length), line, displacement=False)
     materials = [*(coating.material for coating in body.coatings), body.substrate]
     attributed = sampled.assign_attrs(interfaces=interfaces(body), length=length)
     return Stress(attributed, below, materials)
@@ -232,7 +232,7 @@ def displacement(
     below = subsurface(body, grid, (p, q_x, q_y), body_number)
     length = loaded_length(grid, p, q_x, q_y) if length is None else as_number(length)
     line = Line(*_line(z, x, y), as_number(azimuth))
-    return _sampled(below, body, grid, _depths(body, z, length), line, displacement=True)
+    return _sampled(below, body, grid, choose_depths(body, z, length), line, displacement=True)
 
 
 def _sampled(
@@ -314,7 +314,7 @@ def write(
     title: str,
 ) -> None:
     """Write what is asked for of what is loaded, plane by plane."""
-    depths, layers = _depths(body, z, length)
+    depths, layers = choose_depths(body, z, length)
     once = [n for n, depth in enumerate(depths) if n == 0 or depth != depths[n - 1]]
     z_once, layer_once = [depths[n] for n in once], [layers[n] for n in once]
     below.volume(out, z_once, layer_once, of=list(of), title=title)
@@ -374,7 +374,7 @@ def envelope(
     side = grid.nx * grid.dx if grid.plane_strain else min(grid.nx * grid.dx, grid.ny * grid.dy)
     length = side / 2.4 if hertz is None else hertz.a
     x, y = _line(z, x, y)
-    depths, layers = _depths(body, z, length)
+    depths, layers = choose_depths(body, z, length)
     stream = _core.Envelope(
         body,
         scene.grid,
