@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ import pytest
 import pyfret as fret
 from conftest import W, sphere_on_flat
 from pyfret._core import measure
+from pyfret._util.modules import SYNONYMS
 from pyfret._util.numbers import layer_index
 
 PITCH = 2e-6
@@ -115,3 +117,62 @@ def test_a_layer_has_the_name_of_its_material() -> None:
     )  # type: ignore[union-attr]
     with pytest.raises(ValueError, match="must be one of 0"):
         layer_index("TiN", 2, range(3), [layers[0], layers[0], layers[2]])
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["2e-7 mm3/(N m)", "2e-7 mm^3/N/m", "2e-7 mm^3/N m", "2e-7 mm³/(N·m)", "2e-7 mm^3/(N*m)",
+     "0.2 um^3/(N mm)", "200 um^3/(N m)", "2e-10 mm^2/N", "2e-16 m2/N"],
+)  # fmt: skip
+def test_a_wear_coefficient_takes_its_unit_in_any_spelling(text: str) -> None:
+    assert fret.wear.Archard(k=text).k == pytest.approx(2e-16)
+
+
+@pytest.mark.parametrize(
+    "text", ["2e-7 mm^3/N", "2e-7 mm^3/(N m)^2", "2e-7 mm^3/(N s)", "2e-7 mm^3/J", "2e-7 x"]
+)
+def test_a_unit_of_another_dimension_is_refused_in_any_spelling(text: str) -> None:
+    with pytest.raises(ValueError, match=r"k = .*must be a number in m\^2/N"):
+        fret.wear.Archard(k=text)
+
+
+@pytest.mark.parametrize(
+    ("module", "name", "right"),
+    [
+        ("", "life", "fret.fatigue.life"),
+        ("", "hertz", "fret.reference.hertz"),
+        ("", "read_loops", "fret.fit.read_loops"),
+        ("", "Study", "fret.study.Study"),
+        ("", "solv", "fret.solve"),
+        ("reference", "hertz_line", "fret.reference.line_contact"),
+        ("study", "sweep", "fret.study.run"),
+        ("wear", "coefficient", "fret.fit.read_scar"),
+        ("fit", "friction", "fret.fit.fit"),
+        ("fatigue", "criterion", "fret.fatigue.Criterion"),
+    ],
+)
+def test_a_wrong_name_of_a_module_is_answered_with_the_right_one(
+    module: str, name: str, right: str
+) -> None:
+    owner = getattr(fret, module) if module else fret
+    with pytest.raises(AttributeError, match=f"{name}.*did you mean .*{right}"):
+        getattr(owner, name)
+
+
+@pytest.mark.parametrize(
+    "name", [n for n in fret.__all__ if isinstance(getattr(fret, n), ModuleType)]
+)
+def test_a_module_that_is_called_names_its_functions(name: str) -> None:
+    module = getattr(fret, name)
+    expected = {"fit": "unknown", "study": "parameters"}.get(name, f"fret.{name}")
+    with pytest.raises((TypeError, ValueError), match=expected):
+        module(1, {})
+    with pytest.raises(AttributeError, match="no attribute 'nonsense'"):
+        module.nonsense  # noqa: B018
+
+
+def test_every_synonym_of_a_module_leads_to_a_public_name() -> None:
+    for word in SYNONYMS.values():
+        owner = fret
+        for part in word.split("."):
+            owner = getattr(owner, part)

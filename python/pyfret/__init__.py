@@ -69,6 +69,7 @@ from pyfret._core import __version__ as __version__
 from pyfret._util.attributes import PUBLIC_MODULES
 from pyfret._util.extras import application
 from pyfret._util.figures import register_figures
+from pyfret._util.modules import PublicModule, name_hint
 from pyfret._util.names import OTHER_NAMES, listing
 from pyfret.contacts import offer as offer_contacts
 from pyfret.grids import offer as offer_grids
@@ -165,6 +166,9 @@ def _read_columns(*values: Any, **options: Any) -> Any:
     return import_module("pyfret.fit.recorders").read_columns(*values, **options)
 
 
+for _module in PUBLIC_MODULES.values():
+    _module.__class__ = PublicModule
+
 register_figures(_load_figures)
 register_reader(_read_columns)
 #: Modules and functions that are imported at their first use.
@@ -186,7 +190,15 @@ def __getattr__(name: str) -> Any:
     """Import a module or a function at its first use, the figures with matplotlib."""
     if name in _LATER:
         globals()[name] = _LATER[name]()
+        if isinstance(globals()[name], ModuleType):
+            PUBLIC_MODULES[name] = globals()[name]
+            if not isinstance(globals()[name], PublicModule):
+                globals()[name].__class__ = PublicModule
         return globals()[name]
     public_name = OTHER_NAMES.get(name)
     hint = f"; it is called pyfret.{public_name}" if public_name else ""
+    if not hint and not name.startswith("_"):
+        for later in ("fit", "study"):
+            __getattr__(later)
+        hint = name_hint(name)
     raise AttributeError(f"module 'pyfret' has no attribute {name!r}{hint}")

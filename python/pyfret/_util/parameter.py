@@ -21,6 +21,7 @@ from pyfret._util.arrays import contains_booleans, items, numbers
 from pyfret._util.hints import Named, Options, members, read_hints
 from pyfret._util.material_names import read_material
 from pyfret._util.scene_warnings import sizes, warn
+from pyfret._util.spelling import respelled
 
 __all__ = ["Parameter", "Signature", "Unit", "unit_of"]
 
@@ -43,7 +44,13 @@ class Unit:
 
     def convert(self, value: Any) -> float:
         """Convert a text with a unit, or a quantity of pint, to SI."""
-        return _core.quantity_in_si(self.quantity, value)
+        try:
+            return _core.quantity_in_si(self.quantity, value)
+        except ValueError:
+            number = respelled(value, self.si) if isinstance(value, str) else None
+            if number is None:
+                raise
+            return number
 
     def warn(self, name: str, value: Any) -> None:
         """Warn of the numbers that are not plausible: of lists each, of arrays the largest."""

@@ -12,9 +12,9 @@ should have been. ``search`` finds the unknowns, and ``outcome`` holds them with
 from __future__ import annotations
 
 import sys
-from types import ModuleType
 from typing import Any
 
+from pyfret._util.modules import PublicModule
 from pyfret._util.names import listing
 from pyfret.fit.data import (
     Indentation,
@@ -45,7 +45,7 @@ __all__ = [
 __dir__ = listing(__all__)
 
 
-class _Fit(ModuleType):
+class _Fit(PublicModule):
     """The module, which is called by what it does: ``fret.fit(...)`` is ``fret.fit.fit(...)``."""
 
     def __call__(self, *arguments: Any, **keywords: Any) -> FitResult:

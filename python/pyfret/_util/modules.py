@@ -1,0 +1,83 @@
+"""Public modules: a wrong name or a call of the module is answered with the right name."""
+
+from __future__ import annotations
+
+import sys
+from types import ModuleType
+from typing import Any
+
+from pyfret._util.attributes import PUBLIC_MODULES
+from pyfret._util.keywords import nearest_names
+
+__all__ = ["PublicModule", "name_hint"]
+
+#: Public names by the words that others have for them, for modules.
+SYNONYMS = {
+    "hertz_line": "reference.line_contact",
+    "line_hertz": "reference.line_contact",
+    "cylinder_contact": "reference.line_contact",
+    "coefficient": "fit.read_scar",
+    "wear_coefficient": "fit.read_scar",
+    "friction": "fit.fit",
+    "friction_coefficient": "fit.fit",
+    "mu": "fit.fit",
+    "grid": "study.run",
+    "sweep": "study.run",
+    "parametric": "study.run",
+    "parameter_study": "study.run",
+    "loop": "plot.fretting_loop",
+    "read_csv": "read_surface",
+    "from_csv": "read_surface",
+    "roughness": "SurfaceMap",
+    "crack": "fracture.over_cycle",
+}
+
+
+def name_hint(name: str, module: str = "") -> str:
+    """Return a clause with the public name that a wrong one means; empty where none is near.
+
+    Parameters
+    ----------
+    name : str
+        The wrong name.
+    module : str
+        Public module that was asked for it, such as "study"; empty for the package.
+    """
+    own = getattr(PUBLIC_MODULES.get(module) or sys.modules["pyfret"], "__all__", ())
+    elsewhere = [
+        f"{key}.{name}"
+        for key, public in sorted(PUBLIC_MODULES.items())
+        if name in getattr(public, "__all__", ())
+    ]
+    near = [f"{module}.{word}" if module else word for word in nearest_names(name, own, 2)]
+    others = [
+        f"{key}.{word}"
+        for key, public in sorted(PUBLIC_MODULES.items())
+        for word in nearest_names(name, getattr(public, "__all__", ()), 1)
+    ]
+    synonym = [SYNONYMS[name]] if name in SYNONYMS else []
+    for names in (elsewhere, synonym, near, others[:2] if not module else []):
+        if names:
+            return "; did you mean " + " or ".join(f"fret.{word}" for word in names) + "?"
+    return f"; it has {', '.join(own)}"
+
+
+class PublicModule(ModuleType):
+    """A module of the public face."""
+
+    def __getattr__(self, name: str) -> Any:
+        """Refuse a name that the module does not have, with the nearest public one."""
+        message = f"module {self.__name__!r} has no attribute {name!r}"
+        if name.startswith("_"):
+            raise AttributeError(message)
+        raise AttributeError(message + name_hint(name, self.__name__.rpartition(".")[2]))
+
+    def __call__(self, *_: Any, **__: Any) -> Any:
+        """Refuse a call, with the functions of the module."""
+        short_name = self.__name__.rpartition(".")[2]
+        functions = [
+            f"fret.{short_name}.{name}(...)"
+            for name in self.__all__
+            if callable(getattr(self, name)) and not isinstance(getattr(self, name), type)
+        ]
+        raise TypeError(f"{self.__name__} is a module; it has {', '.join(functions[:12])}")
