@@ -163,7 +163,8 @@ class HistoryTable:
                 scene.replace(path=ladder.path, save="branches"), f"{len(levels)}_amplitudes"
             )
             table = cls(scene, history, loops, companions, ladder, run)
-            if len(levels) < count or table.straight_error <= tolerance:
+            error = max(table.straight_error, table.interpolation_error)
+            if len(levels) < count or error <= tolerance:
                 break
             onset = table.curve.onset
         assert table is not None
