@@ -138,12 +138,13 @@ class Spectrum(HoldsArrays):
 
     @quantities
     def sample(
-        self, duration: Time, *, seed: int, points_per_cycle: int = 16
+        self, duration: Time, *, seed: int, points_per_cycle: int = 32
     ) -> tuple[float, NDArray[np.float64]]:
         """Return the time step [s] and the values of a Gaussian sample of zero mean.
 
         The lines of a Fourier series over the duration get normally distributed sines and cosines
-        of the variance of the density. The same seed gives the same sample.
+        of the variance of the density. The same seed gives the same sample. The largest of n points
+        of a cycle lies below its peak by pi^2/(6 n^2) on average, 0.2 % with 32 points.
         """
         length = float(duration)  # type: ignore[arg-type]
         step = 1.0 / (points_per_cycle * self.peaks)
