@@ -29,7 +29,7 @@ from pyfret._util.toml import parse_toml
 from pyfret.quantities import quantities
 from pyfret.study.identity import code_checksum
 
-__all__ = ["Combine", "Design", "Source", "with_values"]
+__all__ = ["Combine", "Design", "Source", "check_source", "with_values"]
 
 #: How the values of several parameters are combined.
 Combine: TypeAlias = Literal["grid", "zip"]
@@ -47,6 +47,21 @@ class DescribesScenes(Protocol):
 
 #: The dimension of a study whose parameters change together.
 TOGETHER = "point"
+
+
+def check_source(source: Source, parameter: str = "scene") -> None:
+    """Refuse what is no scene, no path and no function that makes one.
+
+    Raises
+    ------
+    TypeError
+        It is neither; the message has the parameter.
+    """
+    if not (isinstance(source, Scene | str | PathLike) or callable(source)):
+        raise TypeError(
+            f"{parameter} = {source!r:.60}: must be a Scene, the path of a file, or a function "
+            "that makes a Scene of a dict"
+        )
 
 
 @quantities

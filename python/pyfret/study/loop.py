@@ -13,7 +13,7 @@ from pyfret._core import LoadPath, OffGridError, Scene
 from pyfret._util.numbers import in_words
 from pyfret._util.progress import Progress
 from pyfret.quantities import quantities
-from pyfret.study.design import Combine, Design, Source
+from pyfret.study.design import Combine, Design, Source, check_source
 from pyfret.study.lock import only_writer
 from pyfret.study.measures import Measure, check_measures, code_checksums, measure_names
 from pyfret.study.memory import Columns
@@ -112,6 +112,7 @@ def run(
         if not isinstance(scene, Scene):
             raise TypeError("path: must be left out, as scene is no Scene; put it into the scene")
         scene = scene.replace(path=path)
+    check_source(scene)
     keys = isinstance(scene, Scene | str | os.PathLike)
     design, measures = Design.from_values(parameters, combine, keys=keys), check_measures(measure)
     check_names(design, measures)

@@ -25,7 +25,7 @@ from pyfret.fatigue.criteria import CriterionName, Material
 from pyfret.fatigue.lives import life
 from pyfret.quantities import InSI, Length, as_number, by_default, part, quantities
 from pyfret.solution import solve
-from pyfret.study.design import with_values
+from pyfret.study.design import check_source, with_values
 
 if TYPE_CHECKING:
     import os
@@ -175,6 +175,7 @@ def threshold(
     ValueError
         The measure is on one side of its value within the whole range. The message names the side.
     """
+    check_source(scene)
     if over is None:
         return find_threshold(scene, parameter, measure, between, value, {}, tolerance, error=error)
     lists: dict[str, Sequence[Any]] = dict(over)
@@ -408,8 +409,9 @@ def fit_limits(
     n : int
         Distances that are tried before the best is refined.
     """
-    if len(tests) < 3:
-        raise ValueError(f"{len(tests)} tests: two numbers need 3 at least")
+    if not isinstance(tests, Sequence) or len(tests) < 3:
+        count = len(tests) if isinstance(tests, Sequence) else 0
+        raise ValueError(f"tests: {count} tests, two numbers need 3 at least")
     pairs = [
         [solve(scene(part * load), save="all", progress=False) for part in (1.0, LOAD_RATIO)]
         for scene, load in tests
