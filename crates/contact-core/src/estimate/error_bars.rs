@@ -30,41 +30,18 @@ use super::bar::Bar;
 use super::choice::choose_increments;
 use super::coarser::{GridErrors, ORDER, coarser_grids};
 use super::finer::Finer;
+use super::least_errors::{
+    RETURNED, energy_of_ring, radius_of_spots, rim, slip_ring, solver_parts,
+};
 use super::numbers::{
     CONTACT_RADIUS, DISSIPATED, LOADS, MOTIONS, NUMBERS, P_MAX, PLASTIC, Q_MAX, STICK_RATIO,
-    is_given, numbers,
+    is_given,
 };
 use super::path_error::path_errors;
 use super::two_runs::PathError;
 use crate::error::Error;
-use crate::march::{
-    BranchSummary, Increment, TANGENTIAL_SHARE, Tractions, shear_errors, summarise,
-};
-use crate::plan::Plan;
-use crate::scene::{Branch, Scene};
-
-/// Error of the position of the border of a stick zone, at least \[cells\]. With it 99 % of the
-/// errors of the stick ratio in 160 random scenes (`make error-bars`) are at most 1.5 times, 81 %
-/// at least 0.2 times the bar.
-const BORDER: f64 = 0.04;
-/// The same under a layer thinner than THIN cells, which alone sets the shear at the border: the
-/// root mean square of 16 grids of 64 to 512 cells under a stiff layer (titanium and 4 um of TiN,
-/// plane strain, bulk stress in phase).
-const BORDER_UNDER_THIN: f64 = 0.25;
-const THIN: f64 = 2.0;
-/// [`BORDER`] of line contacts under bulk stress, bare and coated, whose stick zone lies beside the middle: half
-/// the root mean square error of its width over a cycle, on 36 grids of 48 to 96 cells against 512 (titanium,
-/// bare and with one or two layers of 0.05 to 0.4 a, bulk stress in and out of phase).
-const BORDER_UNDER_BULK: [f64; 2] = [0.25, 0.4];
-/// Narrowest slip ring that the cells resolve \[cells\]. A narrower one may be missed as a whole,
-/// or a spurious one found.
-const NARROWEST_RING: f64 = 0.5;
-/// E/(mu^2 W delta_z (1 - S)^2), E being the energy dissipated in a narrow slip ring during
-/// indentation and S the stick area over the contact area: the median of 26 indentations of
-/// dissimilar bodies (random scenes, 0.02 < 1 - S < 0.6; half of them between 0.022 and 0.035).
-/// Scaling: the ring carries the shear mu W (1 - S)^(3/2) and slips by about mu delta_z (1 -
-/// S)^(3/2) while the contact grows by the width of the ring, 1/(1 - S) times in all.
-const RING_ENERGY: f64 = 0.024;
+use crate::march::{BranchSummary, Increment, Tractions, shear_errors, summarise};
+use crate::scene::Scene;
 
 /// Estimated errors of the numbers at the end of a branch.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -186,10 +163,6 @@ pub fn error_bars(
         .collect())
 }
 
-/// Error of what has yielded that the fixed point of an increment leaves: it ends where the stress changes
-/// by 1e-4 of the yield stress.
-const RETURNED: f64 = 1e-3;
-
 /// Errors of a branch from a finer grid.
 struct Differs {
     /// Refinement factor of the finer grid.
@@ -223,6 +196,7 @@ fn bars(
             STICK_RATIO => ring,
             DISSIPATED => energy_of_ring(scene, fine, ring),
             CONTACT_RADIUS if scene.is_uneven() => radius_of_spots(fine),
+            CONTACT_RADIUS => rim(scene),
             _ => 0.0,
         };
         let solver = by_solver[n];
@@ -323,93 +297,4 @@ fn of_stress(
         0.0
     };
     Bar::new(height.hypot(0.1 * stick), path.p.hypot(path.q), tolerance)
-}
-
-/// Error of each number within a tolerance, in its unit: for most numbers tol times the number.
-///
-/// The slip has the error s tol mu delta_z, s being the tangential share of the tolerance. Under
-/// Hertz's pressure the slip ring outside a stick zone of the area ratio S carries W (1 - S)^(3/2),
-/// so that the dissipated energy has the error s tol mu^2 W delta_z (1 - S)^(3/2).
-fn solver_parts(scene: &Scene, fine: &BranchSummary, tolerance: f64) -> [f64; NUMBERS] {
-    let value = numbers(fine).map(f64::abs);
-    let mut parts = value.map(|value| tolerance * value);
-    for n in PLASTIC..NUMBERS {
-        parts[n] = parts[n].max(RETURNED * value[n]);
-    }
-    if may_slip(scene) {
-        let mu = scene.friction.mu;
-        let slip = TANGENTIAL_SHARE * tolerance * mu;
-        let borne = fine.loads.W * (1.0 - value[STICK_RATIO]).max(0.0).powf(1.5);
-        let least = slip * mu * borne * value[MOTIONS];
-        parts[DISSIPATED] = parts[DISSIPATED].max(least);
-    }
-    parts
-}
-
-/// Uncertainty of the stick ratio: the area of a ring of width [`BORDER`] or
-/// [`BORDER_UNDER_THIN`] along the border of the stick zone over the one of the contact; where the
-/// slip ring is narrower than [`NARROWEST_RING`], of a ring of the missing width. In a line contact
-/// the ring is a strip on both sides.
-fn slip_ring(scene: &Scene, fine: &BranchSummary) -> f64 {
-    if !may_slip(scene) || fine.contact_radius <= 0.0 {
-        return 0.0;
-    }
-    let layers = [&scene.body1, &scene.body2].map(|body| body.coatings.first());
-    let layers: Vec<_> = layers.into_iter().flatten().collect();
-    let is_thin = (layers.iter()).any(|layer| layer.thickness < THIN * cell(scene));
-    let mut border = if is_thin { BORDER_UNDER_THIN } else { BORDER };
-    let mut branches = scene.path.branches.iter();
-    if scene.grid.plane_strain
-        && branches.any(|branch| branch.to.sigma_B != 0.0 || branch.to.sigma_B1 != 0.0)
-    {
-        border = border.max(BORDER_UNDER_BULK[usize::from(!layers.is_empty())]);
-    }
-    let (ratio, cell) = (fine.stick_ratio, cell(scene) / fine.contact_radius);
-    if scene.grid.plane_strain {
-        let missed = (NARROWEST_RING * cell - (1.0 - ratio)).max(0.0);
-        return (border * cell).max(missed);
-    }
-    // Width of the ring, over the radius of the contact.
-    let seen = 1.0 - ratio.max(0.0).sqrt();
-    let missed = (NARROWEST_RING * cell - seen).max(0.0);
-    2.0 * (border * cell).max(missed) * ratio.max(0.0).sqrt()
-}
-
-/// Uncertainty of the energy dissipated in the indentation of dissimilar bodies, whose slip ring
-/// may be larger by `ring` \[J\]; negligible where loads in the plane act.
-fn energy_of_ring(scene: &Scene, fine: &BranchSummary, ring: f64) -> f64 {
-    let mut until = scene.path.branches[..=fine.branch].iter();
-    if ring <= 0.0
-        || fine.contact_radius <= 0.0
-        || !Plan::new(scene).coupling
-        || !until.all(Branch::only_presses)
-    {
-        return 0.0;
-    }
-    let (mu, slips) = (scene.friction.mu, 1.0 - fine.stick_ratio);
-    let whole = mu * mu * fine.loads.W * fine.motion.delta_z.abs();
-    RING_ENERGY * whole * ring * (2.0 * slips + ring)
-}
-
-/// Error of the contact radius by the cells along the border of the spots, which count whole \[m\].
-fn radius_of_spots(fine: &BranchSummary) -> f64 {
-    let (spots, radius) = (&fine.spots, fine.contact_radius);
-    let whole = spots.whole_cells.max(f64::MIN_POSITIVE);
-    let off = spots.whole_cells - spots.real_area() + spots.real_area_error();
-    0.5 * radius * off / whole
-}
-
-/// Whether cells may slip: friction has a bound, and shear reaches it.
-fn may_slip(scene: &Scene) -> bool {
-    let mu = scene.friction.mu;
-    mu > 0.0 && mu.is_finite() && (Plan::new(scene).coupling || !scene.path.only_presses())
-}
-
-/// Side of the square with the area of a cell; in plane strain the length of the cell \[m\].
-fn cell(scene: &Scene) -> f64 {
-    if scene.grid.plane_strain {
-        scene.grid.dx
-    } else {
-        scene.grid.cell_area().sqrt()
-    }
 }

@@ -7,6 +7,7 @@ mod coarser;
 mod error_bars;
 mod finer;
 mod first_yield;
+mod least_errors;
 mod neighbour;
 mod numbers;
 mod path_error;

@@ -112,28 +112,45 @@ pub struct BranchSummary {
 }
 
 impl BranchSummary {
-    /// For display: motions and loads in the plane that are zero within the solver's tolerance
-    /// become 0.
+    /// Sizes of motions and of loads below which they are zero within the solver's tolerance, in the
+    /// order of [`RigidMotion::ALL`].
     ///
-    /// The slip of stick cells has the tolerance `tolerance` mu delta_z, and so have shifts under
-    /// given loads; forces under given shifts have `tolerance` mu W. The arm of rotations and
-    /// moments is the radius of the contact.
+    /// In the plane the slip of stick cells has the tolerance `tolerance` mu delta_z, and so have
+    /// shifts under given loads; forces under given shifts have `tolerance` mu W. Tilts and their
+    /// moments have `tolerance` delta_z and `tolerance` W over and times the arm. The arm of
+    /// rotations and moments is the radius of the contact.
+    pub fn insignificant_sizes(&self, scene: &Scene) -> ([f64; 6], [f64; 6]) {
+        let (tolerance, a) = (scene.tolerance(), self.contact_radius);
+        let parts = RigidMotion::ALL.map(|motion| match motion {
+            RigidMotion::DeltaZ => 0.0,
+            motion if motion.is_in_plane() => tolerance * scene.friction.mu.min(1.0),
+            _ => tolerance,
+        });
+        let arms = RigidMotion::ALL.map(|motion| if motion.is_rotation() { a } else { 1.0 });
+        let motion = |k: usize| {
+            if arms[k] > 0.0 {
+                parts[k] * self.motion.delta_z.abs() / arms[k]
+            } else {
+                f64::INFINITY
+            }
+        };
+        let load = |k: usize| parts[k] * self.loads.W.abs() * arms[k];
+        (std::array::from_fn(motion), std::array::from_fn(load))
+    }
+
+    /// For display: motions and loads in the plane that are zero within the solver's tolerance
+    /// become 0 ([`Self::insignificant_sizes`]).
     #[must_use]
     pub fn without_insignificant_values(mut self, scene: &Scene) -> Self {
-        let part = scene.tolerance() * scene.friction.mu.min(1.0);
-        let (shift, force) = (part * self.motion.delta_z.abs(), part * self.loads.W);
+        let (least_motions, least_loads) = self.insignificant_sizes(scene);
         let (mut forces, given) = (self.loads.forces(), self.loads.given);
         let mut clear_insignificant = |of: RigidMotion, motion: &mut f64| {
-            let arm = if of.is_rotation() {
-                self.contact_radius
-            } else {
-                1.0
-            };
-            let load = &mut forces[of.index()];
-            if given.motions()[of.index()].is_none() && arm * motion.abs() < shift {
+            let k = of.index();
+            let is_given = given.motions()[k].is_some();
+            if !is_given && motion.abs() < least_motions[k] {
                 *motion = 0.0;
-            } else if given.motions()[of.index()].is_some() && load.abs() < force * arm {
-                *load = 0.0;
+            } else if is_given && forces[k].abs() < least_loads[k] {
+                forces[k] = 0.0;
             }
         };
         clear_insignificant(RigidMotion::DeltaX, &mut self.motion.delta_x);

@@ -121,3 +121,28 @@ fn friction_with_a_history_has_bars_that_cover() {
     }
     assert!(worst <= COVERS, "{worst}");
 }
+
+#[test]
+fn what_vanishes_within_the_tolerance_has_its_error() {
+    let path = LoadPath::start().normal(W, 3).tangential(&[0.1 * W], 4);
+    let (scene, hertz) = sphere((STEEL, ALUMINIUM), (2.8, 24), path);
+    let (branches, bars) = with_bars(&scene);
+    for (branch, bar) in branches.iter().zip(&bars) {
+        let (motions, loads) = branch.insignificant_sizes(&scene);
+        let given = branch.loads.given.motions();
+        for k in 1..6 {
+            let (answered, least) = if given[k].is_some() {
+                (bar.loads()[k], loads[k])
+            } else {
+                (bar.motions()[k], motions[k])
+            };
+            assert!(
+                answered.total >= least,
+                "{k}: {answered:?}, at least {least:e}"
+            );
+        }
+        // A ball has its rim within 0.015 cells at best.
+        assert!(bar.contact_radius.total >= 0.015 * scene.grid.dx);
+        assert!(bar.contact_radius.total < 0.02 * hertz.a);
+    }
+}
