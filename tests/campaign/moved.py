@@ -28,8 +28,13 @@ RADIUS, N, ROOM = 5e-3, 28, 8
 LOAD = 30.0
 #: Difference of two numbers that is within their cells, over the number.
 ALLOWED = 5e-3
+#: Part of the size of its unit below which a number is rounding.
+ROUNDING = 1e-6
 #: Numbers of a run that are no answers: counts, work, residuals, time.
-WORK = ("residual", "convolutions", "iterations", "alternations", "parts", "seconds", "increment")
+WORK = (
+    *("residual", "scatter", "quadrature", "convolutions", "iterations", "alternations"),
+    *("parts", "seconds", "increment"),
+)
 STEEL = fatigue.Materials()["steel_42CrMo4"]
 
 
@@ -173,7 +178,7 @@ def numbers(
 ) -> dict[str, tuple[float, float]]:
     """Return every public number of the contact with its error, rescaled to scale 1."""
     kept: dict[str, tuple[float, float, str]] = {}
-    result = fret.solve(drawn.scene(), save="all", progress=False)
+    result = fret.solve(drawn.scene(), save="all", error=True, progress=False)
     last, number = result.at(-1), drawn.body_number
     d = result.dataset
 
@@ -185,17 +190,24 @@ def numbers(
         kept[name] = (float(value), abs(float(error or 0.0)), unit)
 
     scalars = {str(k): v for k, v in d.data_vars.items() if v.ndim == 1 and v.dtype.kind in "fi"}
+    bars = result.error_bars().sel(part="total").isel(branch=-1)
+    # A mean over the contact has the error of its area.
+    of_area = printed_error(bars, "contact_area") / float(d.contact_area[-1])
     pairs = {k[:-2] for k in scalars if k.endswith("_x") and f"{k[:-2]}_y" in scalars}
     for name, values in scalars.items():
-        if values.dims != d.p_max.dims or any(word in name for word in WORK):
+        if values.dims != d.p_max.dims or any(word in name for word in (*WORK, "_error")):
             continue
         unit = str(values.attrs.get("units", "1"))
         if name[:-2] in pairs and name[-2:] in ("_x", "_y"):
             parts = scalars | about_contact
-            size = np.hypot(*(parts[f"{name[:-2]}_{k}"].values[-1] for k in "xy"))
-            keep(f"|{name[:-2]}|", size, unit)
+            both = [f"{name[:-2]}_{k}" for k in "xy"]
+            size = np.hypot(*(parts[part].values[-1] for part in both))
+            keep(f"|{name[:-2]}|", size, unit, max(printed_error(bars, part) for part in both))
         elif name not in ("sigma_B", "sigma_B1", "M_z", "phi_z", "t", "branch"):
-            keep(name, values.values[-1], unit)
+            error = printed_error(scalars, name) or printed_error(bars, name)
+            if name == "mean_pressure":
+                error = of_area * values.values[-1]
+            keep(name, values.values[-1], unit, error)
     fields = {str(k): v for k, v in last.dataset.data_vars.items() if v.dims == ("x", "y")}
     for name, values in fields.items():
         unit, samples = str(values.attrs.get("units", "1")), values.values.astype(float)
@@ -208,13 +220,15 @@ def numbers(
             and not name.startswith("|u")
             and name != "u_z"
         ):
-            keep(f"mean of {name} in the contact", samples[last.contact.values].mean(), unit)
+            mean = samples[last.contact.values].mean()
+            keep(f"mean of {name} in the contact", mean, unit, of_area * abs(mean))
     direction = "y" if abs(np.sin(drawn.angle)) > 0.9 else "x"
     if min(abs(np.sin(drawn.angle)), abs(np.cos(drawn.angle))) < 1e-6:
         loops = result.loops(direction=direction)
         for name, values in loops.data_vars.items():
-            if values.dtype.kind == "f":
-                keep(f"loop: {name}", values.values[-1], str(values.attrs.get("units", "1")))
+            if values.dtype.kind == "f" and not name.endswith("_error"):
+                unit = str(values.attrs.get("units", "1"))
+                keep(f"loop: {name}", values.values[-1], unit, printed_error(loops, name))
     below = last.stress(body_number=number)
     for measure in LABELS:
         if measure.startswith("interface") and drawn.coating is None:
@@ -241,11 +255,21 @@ def numbers(
     half = cracks.dataset.attrs["half_width"]
     grown = result.grow_crack(body_number=number, start=0.1 * half, end=0.5 * half)
     keep("largest dK of a grown crack", grown.dK().max(), "Pa m^0.5", grown.dK_error()[-1])
+    # What a number of each unit is compared with where it vanishes.
+    W, approach = float(d.W[-1]), float(d.delta_z[-1])
+    sizes = {"N": W, "N m": W * drawn.scale * drawn.radius, "m": approach, "J": W * approach}
     scaled = {}
     for name, (value, error, unit) in kept.items():
         by = drawn.scale ** POWERS.get(unit, 0)
-        scaled[name] = (value / by, error / by)
+        scaled[name] = (value / by, (error + ROUNDING * sizes.get(unit, 0.0)) / by)
     return scaled
+
+
+def printed_error(columns: Any, name: str) -> float:
+    """Return the last error of a column, under its name in error bars; 0 where there is none."""
+    is_bars = "part" in getattr(columns, "coords", ())
+    errors = columns.get(f"{name}_error", columns.get(name) if is_bars else None)
+    return 0.0 if errors is None else float(np.nan_to_num(np.ravel(errors.values)[-1]))
 
 
 def _life(result: fret.Result, material: Any, criterion: str, number: int) -> tuple[float, float]:
@@ -279,6 +303,9 @@ def compared(
             for name, (value, error) in right.items():
                 # The nominal contact of a map is the whole grid: its mean gap depends on the place.
                 if name == "mean_gap" and moved_scene.offset != drawn.offset:
+                    continue
+                # Loops are along an axis.
+                if name.startswith("loop: ") and name not in moved:
                     continue
                 there, error_there = moved.get(name, (np.nan, 0.0))
                 if np.isnan(value) and np.isnan(there):
