@@ -150,13 +150,6 @@ def is_compiled(call: Any) -> bool:
     return owner is not None and getattr(call, "__module__", None) in (None, "pyfret._core")
 
 
-@pytest.mark.solves
-def test_a_program_with_units_is_typed_strictly(tmp_path: Path) -> None:
-    program = tmp_path / "program.py"
-    program.write_text(PROGRAM, encoding="utf-8")
-    assert_typed(tmp_path)
-
-
 #: Errors of mypy that a page may have, each with its reason.
 OF_PAGES = {
     "no-untyped-def": "functions of pages have no annotations, for the sake of readers",
@@ -168,27 +161,25 @@ OF_PAGES = {
 
 
 @pytest.mark.solves
-def test_the_pages_are_typed_strictly(tmp_path: Path) -> None:
-    """The blocks of each page, one after the other, as a user would copy them."""
+def test_a_program_and_the_pages_are_typed_strictly(tmp_path: Path) -> None:
+    """A program with units, and the blocks of each page, one after the other, as users copy them."""
+    (tmp_path / "program.py").write_text(PROGRAM, encoding="utf-8")
+    settings = ["[mypy]", "strict = true"]
     for page in DOCUMENTS:
         blocks = re.findall(r"```python\n(.*?)```", text(page), flags=re.DOTALL)
         if blocks:
             name = re.sub(r"\W", "_", str(page.relative_to(ROOT)))
             (tmp_path / f"{name}.py").write_text("".join(blocks), encoding="utf-8")
-    assert_typed(tmp_path, *(f"--disable-error-code={of}" for of in OF_PAGES))
-
-
-def assert_typed(folder: Path, *options: str) -> None:
-    """The programs of a folder pass mypy --strict."""
-    empty = folder / "mypy.ini"
-    empty.write_text("[mypy]\n", encoding="utf-8")
-    command = [sys.executable, "-m", "mypy", "--strict", "--config-file", str(empty), *options]
-    command += ["--cache-dir", str(folder / "cache"), *map(str, sorted(folder.glob("*.py")))]
-    found = subprocess.run(
+            settings += [f"[mypy-{name}]", f"disable_error_code = {', '.join(OF_PAGES)}"]
+    configuration = tmp_path / "mypy.ini"
+    configuration.write_text("\n".join(settings), encoding="utf-8")
+    command = [sys.executable, "-m", "mypy", "--config-file", str(configuration)]
+    command += ["--cache-dir", str(tmp_path / "cache"), *map(str, sorted(tmp_path.glob("*.py")))]
+    checked = subprocess.run(
         command,
         capture_output=True,
         text=True,
         check=False,
         env=os.environ | {"MYPYPATH": str(Path(fret.__file__).parents[1])},
     )
-    assert found.returncode == 0, found.stdout + found.stderr
+    assert checked.returncode == 0, checked.stdout + checked.stderr

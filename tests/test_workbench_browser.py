@@ -52,6 +52,7 @@ def page() -> Iterator[Any]:
     page.stop()
 
 
+@pytest.mark.slow
 def test_a_coating_is_chosen(browser: Any, page: Any) -> None:
     user = User(browser, page.url)
     user.wait()
