@@ -162,7 +162,7 @@ OF_PAGES = {
 
 @pytest.mark.solves
 def test_a_program_and_the_pages_are_typed_strictly(tmp_path: Path) -> None:
-    """A program with units, and the blocks of each page, one after the other, as users copy them."""
+    """Check a program with units, and the blocks of each page one after the other."""
     (tmp_path / "program.py").write_text(PROGRAM, encoding="utf-8")
     settings = ["[mypy]", "strict = true"]
     for page in DOCUMENTS:
