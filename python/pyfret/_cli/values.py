@@ -58,11 +58,11 @@ class Value:
         except ValueError:
             pass
         try:
-            found = number(self.key, text)
+            value = number(self.key, text)
         except ValueError as error:
             raise argparse.ArgumentTypeError(str(error)) from None
         size = unit_of(self.own) if self.own else None
-        return found if size is None else found / size[1]
+        return value if size is None else value / size[1]
 
 
 class Values:
@@ -77,7 +77,7 @@ class Values:
     @property
     def unit(self) -> str:
         """Units of the numbers."""
-        return ", ".join(of.unit for of in self.each if of.unit)
+        return ", ".join(part.unit for part in self.each if part.unit)
 
     def __call__(self, text: str) -> list[float]:
         """The numbers."""

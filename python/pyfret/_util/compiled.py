@@ -47,16 +47,16 @@ def guard(module: ModuleType, constructors: dict[type, Callable[..., Any]]) -> N
                 refuse_construction(member, members)
 
 
-#: Names of the parameters of all methods, by class and method.
-PARAMETERS: dict[str, dict[str, tuple[str, ...]]] = {}
+#: The compiled methods by class and name. Their signatures are read for a refusal alone.
+METHODS: dict[str, dict[str, MethodDescriptorType]] = {}
 #: Methods that take any keyword, and the method whose keywords they take in turn.
 OTHERS_TAKE = {"LoadPath.waypoints": "LoadPath.force"}
 
 
 def guard_methods(kind: type) -> None:
     """Put the methods of a class behind :func:`refusing`."""
-    PARAMETERS[kind.__name__] = {
-        key: named_parameters(member)
+    METHODS[kind.__name__] = {
+        key: member
         for key, member in vars(kind).items()
         if isinstance(member, MethodDescriptorType) and not key.startswith("_")
     }
@@ -147,13 +147,13 @@ def named_parameters(call: Callable[..., Any]) -> tuple[str, ...]:
 def taken_elsewhere(call: str, keyword: str) -> str:
     """Return a clause on the other methods of a class that take a keyword or its synonym."""
     kind, _, method = call.partition(".")
-    siblings = PARAMETERS.get(kind, {})
+    siblings = {key: named_parameters(member) for key, member in METHODS.get(kind, {}).items()}
     takers = []
     for name in siblings:
-        other = OTHERS_TAKE.get(f"{kind}.{name}", f"{kind}.{name}").partition(".")[2]
-        known = siblings.get(other, ())
-        if name != method and (keyword in known or meant(keyword, known)):
-            word = keyword if keyword in known else meant(keyword, known)[0]
+        source = OTHERS_TAKE.get(f"{kind}.{name}", f"{kind}.{name}").partition(".")[2]
+        keys = siblings.get(source, ())
+        if name != method and (keyword in keys or meant(keyword, keys)):
+            word = keyword if keyword in keys else meant(keyword, keys)[0]
             takers.append(f"{kind}.{name}({word}=...)")
     return f"; it is an argument of {' and '.join(takers)}" if takers else ""
 
@@ -163,11 +163,11 @@ def refuse_call(
 ) -> TypeError | None:
     """Return the refusal of arguments whose names or whose number are wrong."""
     if not any(parameter.kind is parameter.VAR_KEYWORD for parameter in parameters):
-        named = [parameter.name for parameter in parameters if parameter.kind in NAMED]
-        known = [key for key in named if key != "self"]
-        refusal = unknown_keyword(name, keywords, known)
+        keys = [parameter.name for parameter in parameters if parameter.kind in NAMED]
+        keys = [key for key in keys if key != "self"]
+        refusal = unknown_keyword(name, keywords, keys)
         if refusal is not None:
-            unknown = next(key for key in keywords if key not in known)
-            elsewhere = "" if nearest_names(unknown, known, 1) else taken_elsewhere(name, unknown)
+            unknown = next(key for key in keywords if key not in keys)
+            elsewhere = "" if nearest_names(unknown, keys, 1) else taken_elsewhere(name, unknown)
             return TypeError(f"{refusal}{elsewhere}")
     return check_places(name, parameters, values)

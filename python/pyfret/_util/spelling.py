@@ -33,11 +33,11 @@ def respelled(text: str, unit: str) -> float | None:
     2e-16
     """
     number, _, name = text.strip().partition(" ")
-    parsed, wanted = product_of(name), product_of(unit)
-    if parsed is None or wanted is None or parsed[1] != wanted[1]:
+    parsed, target = product_of(name), product_of(unit)
+    if parsed is None or target is None or parsed[1] != target[1]:
         return None
     try:
-        return float(number) * parsed[0] / wanted[0]
+        return float(number) * parsed[0] / target[0]
     except ValueError:
         return None
 

@@ -188,10 +188,10 @@ def check_size(
     chunks = of.get("chunks")
     if chunks is None and isinstance(inner, dict):
         chunks = inner.get("chunk_shape")
-    for sizes, what, least in ((of.get("shape"), "shape", 0), (chunks, "chunks", 1)):
+    for sizes, subject, least in ((of.get("shape"), "shape", 0), (chunks, "chunks", 1)):
         whole = isinstance(sizes, list) and all(type(n) is int and n >= least for n in sizes)
         if not whole:
-            raise Refused(f"{where.name}: has no {what} but {sizes!r}")
+            raise Refused(f"{where.name}: has no {subject} but {sizes!r}")
     digits = re.search(r"\d+", word)
     width = max(int(digits[0]) if digits else 1, 1)
     values, chunk = math.prod(of["shape"]), math.prod(chunks or [1])

@@ -184,13 +184,13 @@ def own_rows(candidates: Mapping[str, Candidate]) -> dict[str, list[float | str]
             raise TypeError(
                 f'candidate {label}: rows = {of.rows!r}: must be a table, {{"cost": 3.2}}'
             )
-    names = dict.fromkeys(name for of in candidates.values() for name in of.rows)
+    names = dict.fromkeys(name for candidate in candidates.values() for name in candidate.rows)
     for name in names:
         if name in NUMBERS or name in PLACES or name in ("coatings", "candidate"):
             raise ValueError(f"rows: {name!r} is a number of the comparison; give another name")
     rows: dict[str, list[float | str]] = {}
     for name in names:
-        values = [of.rows.get(name) for of in candidates.values()]
+        values = [candidate.rows.get(name) for candidate in candidates.values()]
         text = any(isinstance(value, str) for value in values)
         none: float | str = "" if text else math.nan
         made = [none if value is None else str(value) if text else float(value) for value in values]
