@@ -111,7 +111,7 @@ def test_what_is_no_coefficient_is_refused(
 def test_a_law_is_a_function_and_alone() -> None:
     with pytest.raises(TypeError, match="must be a function of the arrays"):
         fret.Friction(MU, law=3)  # type: ignore[arg-type]
-    with pytest.raises(fret.errors.InvalidSceneError, match="without map, history and kinetic"):
+    with pytest.raises(fret.errors.InvalidSceneError, match="without map, history, kinetic"):
         fret.Friction(MU, law=softening, kinetic=0.2)
     with pytest.raises(TypeError, match=r"Friction\(0.3, law=function\)"):
         sphere_on_flat().replace(friction=softening)

@@ -58,7 +58,7 @@ def test_a_figure_of_a_result_is_a_method_of_it() -> None:
     for name in NAMES:
         alone = first_types(getattr(plot, name)) <= PLAIN
         assert alone != (name in methods), name
-    assert {"wear_history", "wear_profiles", "wear_loops", "depth_map"} == set(
+    assert {"wear_history", "wear_profiles", "wear_loops", "depth_map", "third_body"} == set(
         figures_of(fret.wear.WearResult)
     )
     assert "life_over_distance" in figures_of(fret.fatigue.OverDistance)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -92,3 +93,135 @@ def test_more_without_oxygen_than_in_air_is_doubted() -> None:
     short = settings(body1=law, cycles=10, jumps=1)
     worn = fret.wear.solve(cylinder(48), progress=False, **short)
     assert "wear.body1.starved" in " ".join(worn.doubts)
+
+
+def film(**changes: Any) -> fret.Scene:
+    """A cylinder on a flat with a film of low friction, which is worn through."""
+    steel = fret.Elastic(E=200e9, nu=0.3)
+    path = fret.LoadPath.start().normal(1e5)
+    scene = fret.Scene(
+        body1=fret.Body(steel, shape=fret.Cylinder(R=10e-3)),
+        body2=fret.Body(steel, coatings=fret.Coating(steel, thickness=2e-6)),
+        friction=fret.Friction(layers=[0.15, 0.7]),
+        grid=fret.Grid.strip(extent=1.8e-3, n=96),
+        path=path.displace(delta_x=50e-6).displace(delta_x=-50e-6).displace(delta_x=50e-6),
+    )
+    return scene.replace(**changes)
+
+
+#: Laws of the film and of the substrate.
+FILM_LAWS = [fret.wear.DissipatedEnergy(1e-15), fret.wear.DissipatedEnergy(2e-14)]
+
+
+def wear_film(scene: fret.Scene, **changes: Any) -> fret.wear.WearResult:
+    """Wear the film through."""
+    settings = {"cycles": 4e5, "body2": FILM_LAWS, "worn_through": "go_on", "jumps": 12}
+    return fret.wear.solve(scene, progress=False, **{**settings, **changes})
+
+
+@pytest.mark.solves
+def test_friction_rises_as_a_film_is_worn_through(tmp_path: Path) -> None:
+    worn = wear_film(film(), out=tmp_path / "run.zarr")
+    mu = np.asarray(worn.mu)
+    assert mu[0] == pytest.approx(0.15)
+    assert 0.17 < mu[-1] < 0.7
+    assert np.all(np.diff(mu) > -1e-9)
+    cycles = worn.cycles_to(mu=0.16)
+    assert worn.cycles_to(part_of_coating=1.0) <= cycles < 4e5
+    assert worn.cycles_to(mu=0.6).beyond == pytest.approx(4e5)
+    assert worn.cycles_to(mu=0.15) == 0.0
+    assert "mean coefficient of friction" in worn.summary()
+    assert worn.scene.friction == fret.Friction(layers=[0.15, 0.7])
+    # The force of the loop follows the friction.
+    assert float(worn.loop_T_x[-1].max()) == pytest.approx(1e5 * mu[-1], rel=1e-6)
+    # Energy of the cells is energy of the contact.
+    energy = float(worn.energy2[-1].sum() * worn.scene.grid.dx)
+    assert energy == pytest.approx(float(worn.dissipated[-1]), rel=1e-9)
+
+
+@pytest.mark.solves
+def test_a_law_of_your_own_sees_the_exposed_surface() -> None:
+    seen: dict[str, float] = {}
+
+    def law(x: Any, y: Any, p: Any, slip: Any, dissipated: Any, *, layer2: Any, worn2: Any) -> Any:
+        seen["layer"] = max(seen.get("layer", 0.0), float(layer2.max()))
+        seen["worn"] = max(seen.get("worn", 0.0), float(worn2.max()))
+        return np.where(layer2 > 0, 0.7, 0.15)
+
+    path = fret.LoadPath.start().normal(1e5)
+    for to in (20e-6, -20e-6, 20e-6):
+        path = path.displace(delta_x=to, increments=4)
+    plain = film(path=path)
+    own = plain.replace(friction=fret.Friction(0.15, law=law))
+    results = [wear_film(s, cycling="march", cycles=8e5, jumps=6) for s in (plain, own)]
+    assert seen["layer"] == 1.0
+    assert seen["worn"] > 2e-6
+    mu = [float(worn.mu[-1]) for worn in results]
+    assert mu[0] > 0.16
+    assert mu[1] == pytest.approx(mu[0], rel=0.1)
+
+
+@pytest.mark.parametrize(
+    ("friction", "match"),
+    [
+        (lambda: fret.Friction(layers=[]), r"layers"),
+        (lambda: fret.Friction(layers=[0.1, -0.2]), r"friction\.layers"),
+        (lambda: fret.Friction(layers=[0.1, float("nan")]), r"layers"),
+        (lambda: fret.Friction(0.3, layers=[0.1, 0.2]), r"friction\.mu"),
+        (lambda: fret.Friction(), r"mu is missing"),
+        (lambda: fret.Friction(0.3, starved=-0.1), r"friction\.starved"),
+        (lambda: fret.Friction(0.3, bed=(0.2, 0.0)), r"friction\.bed\.thickness"),
+        (lambda: fret.Friction(0.3, bed=(-0.2, 1e-6)), r"friction\.bed\.mu"),
+        (lambda: wear_film(film(friction=fret.Friction(layers=[0.1, 0.2, 0.3]))), r"layers"),
+        (lambda: wear_film(film(friction=fret.Friction(0.3, starved=0.4))), r"friction\.starved"),
+        (lambda: wear_film(film(friction=fret.Friction(0.3, bed=(0.2, 1e-6)))), r"friction\.bed"),
+        (lambda: wear_film(film(), yield_stress=float("nan")), r"yield_stress"),
+    ],
+)
+def test_friction_without_a_meaning_is_refused_by_name(
+    friction: Callable[[], Any], match: str
+) -> None:
+    with pytest.raises((ValueError, TypeError), match=match):
+        friction()
+
+
+def test_friction_of_the_surface_is_kept_by_files_and_copies() -> None:
+    law = fret.Friction(layers=[0.15, 0.7], starved=0.9, bed=(0.4, 2e-6))
+    assert law.mu == 0.15
+    assert (law.layers, law.starved, law.bed) == ([0.15, 0.7], 0.9, (0.4, 2e-6))
+    assert pickle.loads(pickle.dumps(law)) == law
+    assert eval(repr(law), {"Friction": fret.Friction}) == law  # noqa: S307
+    scene = film(friction=law)
+    assert fret.Scene.from_toml(scene.to_toml()).friction == law
+    without_mu = scene.to_toml().replace("mu = 0.15\n", "", 1)
+    assert fret.Scene.from_toml(without_mu).friction == law
+
+
+@pytest.mark.solves
+def test_a_pressure_above_the_yield_stress_is_doubted() -> None:
+    short = settings(cycles=10, jumps=1, yield_stress=1e8)
+    worn = fret.wear.solve(cylinder(48), progress=False, **short)
+    assert "wear.yield_stress" in " ".join(worn.doubts)
+    high = fret.wear.solve(cylinder(48), progress=False, **{**short, "yield_stress": 2e9})
+    assert "wear.yield_stress" not in " ".join(high.doubts)
+
+
+@pytest.mark.solves
+def test_laws_of_wear_may_see_the_third_body() -> None:
+    seen: dict[str, float] = {}
+
+    def law(pressed: Any, slip: Any, dissipated: Any, worn: Any, cycles: Any, *, bed: Any) -> Any:
+        seen["bed"] = max(seen.get("bed", 0.0), float(bed.max()))
+        return 2e-13 * dissipated
+
+    fret.wear.solve(cylinder(48), progress=False, **settings(body1=law, jumps=2))
+    assert seen["bed"] > 1e-7
+
+
+@pytest.mark.solves
+def test_scar_bed_and_aerated_zone_are_drawn() -> None:
+    worn = fret.wear.solve(cylinder(48), progress=False, **settings(jumps=2))
+    ax = fret.plot.third_body(worn)
+    labels = {text.get_text() for text in ax.get_legend().get_texts()}
+    expected = {"worn off both bodies", "debris", "growth of the gap", "oxygen arrives"}
+    assert labels == expected

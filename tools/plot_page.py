@@ -90,6 +90,7 @@ FIGURES: dict[str, dict[str, str]] = {
         "wear_profiles": "fret.plot.wear_profiles(worn)",
         "wear_loops": "fret.plot.wear_loops(worn)",
         "depth_map": "fret.plot.depth_map(worn)",
+        "third_body": "fret.plot.third_body(oxidised)",
         "temperature": "fret.plot.temperature(hot)",
         "temperature_map": 'fret.plot.temperature_map(hot, of="flash")',
     },

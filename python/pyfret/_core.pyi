@@ -1381,6 +1381,15 @@ class Friction:
         Factor of the coefficient over the surface.
     history : (History, list of pairs), optional
         Factor of the coefficient, linear between the pairs (history, factor).
+    layers : sequence of float, optional
+        Coefficient of each layer that wear exposes, in place of `mu`: the coatings of the coated body
+        from the outermost on, then its substrate. Before wear the first one holds.
+    starved : float, optional
+        Coefficient where no oxygen arrives; see :class:`pyfret.wear.Air`. The aerated share s of a
+        cell gives starved + (mu - starved) s.
+    bed : (float, float), optional
+        Coefficient mu_bed of a thick bed of debris, and the thickness h_ref [m] of the bed; see
+        :class:`pyfret.wear.DebrisBed`. The bed h gives mu_bed + (mu - mu_bed) exp(-h/h_ref).
     law : callable, optional
         A function of five arrays with a number for each cell. These are places `x`, `y` [m],
         pressure `p` [Pa], length of the way slipped `slip` [m] and energy per area `dissipated`
@@ -1388,7 +1397,9 @@ class Friction:
         same shape or one number. `mu` is about the size of it: the measure of tolerances, and the
         coefficient of cells without pressure so far. An increment is solved again until the
         coefficient follows from pressure and history at its end. What the function raises is raised
-        as it is. No map, history or kinetic coefficient beside it; over cycles of wear slip and
+        as it is. It also gets those of `worn1`, `worn2` (worn depths [m]), `layer1`, `layer2` (the
+        exposed layer, from 0), `bed` (debris per area [m]) and `aerated` (share with oxygen) that
+        its signature names. No other law beside it; over cycles of wear slip and
         energy are sums over all cycles so far. A store keeps that there is a law, not which:
         ``pyfret.resume(store, friction_law=...)``.
     """
@@ -1400,12 +1411,15 @@ class Friction:
     def __new__(
         cls,
         /,
-        mu: float,
+        mu: float | None = None,
         *,
         mu_y: float | None = None,
         kinetic: float | None = None,
         map: SurfaceMap | None = None,
         history: tuple[History, Sequence[tuple[float, float]]] | None = None,
+        layers: Sequence[float] | None = None,
+        starved: float | None = None,
+        bed: tuple[float, float] | None = None,
         law: FrictionFunction | Literal["own"] | None = None,
     ) -> Friction: ...
     def __replace__(self, /, **changes: Any) -> Self: ...
@@ -1417,8 +1431,14 @@ class Friction:
     def is_constant(self, /) -> bool:
         """Whether it is the same everywhere and at all times, if not in all directions."""
     @property
+    def bed(self, /) -> tuple[float, float] | None:
+        """Coefficient of a thick bed of debris, and the thickness of the bed [m]."""
+    @property
     def kinetic(self, /) -> float | None:
         """Coefficient of cells that slipped in the increment before."""
+    @property
+    def layers(self, /) -> list[float] | None:
+        """Coefficient of each layer that wear exposes."""
     @property
     def law(self, /) -> Any | None:
         """The function that gives the coefficient; ``"own"`` if only that there is one is known."""
@@ -1431,6 +1451,9 @@ class Friction:
     @property
     def mu_y(self, /) -> float | None:
         """Coefficient along y, if it is another."""
+    @property
+    def starved(self, /) -> float | None:
+        """Coefficient where no oxygen arrives."""
     def replace(self, /, **changes: Any) -> Self:
         """Return a copy with some of its parts exchanged, named as in the constructor."""
     def words(self, /) -> list[tuple[str, float | None]]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from pyfret._util.arrays import pitch, plain
 from pyfret._util.attributes import missing_attribute
+from pyfret._util.keywords import accepted_keywords
 from pyfret._util.scene_warnings import warn
 from pyfret.scene.maps import (
     filter_waves,
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Settings",
+    "accepted_keywords",
     "filter_waves",
     "fit_form",
     "hardness_from",

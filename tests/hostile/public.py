@@ -359,6 +359,7 @@ OF: dict[str, dict[str, Any]] = {
     "plot.wear_loops": {"result": WORN},
     "plot.wear_profiles": {"result": WORN, "of": "body2"},
     "plot.depth_map": {"result": WORN, "of": "body2"},
+    "plot.third_body": {"result": WORN},
     "plot.design_chart": {"x": "mu", "y": "body1.shape.sphere.R"},
     "plot.study_line": {"of": "p_max", "along": "mu"},
     "plot.study_map": {"of": "p_max"},

@@ -247,7 +247,7 @@ pub(super) fn attributes(run: &WearRun, status: &str) -> Value {
     });
     let (scene, hertz) = (run.scene(), run.scene().hertz());
     let mut doubts = scene.doubts();
-    doubts.extend(run.wear().doubts());
+    doubts.extend(run.doubts());
     json!({
         "doubts": doubts.join("\n"),
         "method": run.wear().note(),

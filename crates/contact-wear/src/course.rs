@@ -17,7 +17,7 @@
 
 use contact_core::Error;
 
-use super::law::{BodyWear, CellCycle};
+use super::law::{BodyWear, CellCycle, layer_at};
 use super::variable::FactorVariable;
 
 /// Difference of the rates at the start, in the middle and at the end of a step, over the largest of
@@ -42,14 +42,19 @@ pub(super) struct Coefficients {
     pub(super) mean: Vec<f64>,
     /// k of the last cycle.
     pub(super) end: Vec<f64>,
+    /// Mean coefficient of friction of all cycles; empty where it does not follow the layer.
+    pub(super) mu: Vec<f64>,
 }
 
+/// Factor of the dissipated energy of a cell while a layer is bare, over that of the cycle.
+pub(super) type LayerFactor<'a> = dyn Fn(usize, usize) -> f64 + 'a;
+
 /// Computes the coefficients of a body in n cycles that begin at the state in `cycle`. `coatings`
-/// are the thicknesses of its layers \[m\].
+/// are the thicknesses of its layers \[m\], `friction` the factor where friction follows them.
 pub(super) fn coefficients(
     body: &BodyWear,
     cycle: &CellCycle<'_>,
-    coatings: &[f64],
+    (coatings, friction): (&[f64], Option<&LayerFactor<'_>>),
     n: f64,
 ) -> Result<Coefficients, Error> {
     let per_loading = |depth: &[f64], cycles: f64| -> Vec<f64> {
@@ -64,18 +69,22 @@ pub(super) fn coefficients(
             })
             .collect()
     };
-    let course = Course::new(body, cycle, coatings);
+    let course = Course {
+        friction,
+        ..Course::new(body, cycle, coatings)
+    };
     let mut state = State {
         lost: vec![0.0; cycle.worn.len()],
         worn: cycle.worn.to_vec(),
         energy: cycle.energy.to_vec(),
     };
     let first = course.rate(&state, cycle.cycles)?;
-    if body.is_steady() {
+    if body.is_steady() && friction.is_none() {
         let k = per_loading(&first, 1.0);
         return Ok(Coefficients {
             end: k.clone(),
             mean: k,
+            mu: Vec::new(),
         });
     }
     for (from, to) in course.straight_parts(&state, &first, [cycle.cycles, cycle.cycles + n])? {
@@ -98,6 +107,13 @@ pub(super) fn coefficients(
             .map(use_first_if_equal)
             .collect(),
         end: per_loading(&last, 1.0),
+        mu: if friction.is_some() {
+            let growth = state.energy.iter().zip(cycle.energy);
+            let growth: Vec<f64> = growth.map(|(end, start)| end - start).collect();
+            per_loading(&growth, n)
+        } else {
+            Vec::new()
+        },
     })
 }
 
@@ -123,6 +139,8 @@ struct Course<'a> {
     bottoms: Vec<f64>,
     /// Energies at which a table has a place \[J/m^2\], ascending.
     energies: Vec<f64>,
+    /// Factor of the energy by the bare layer.
+    friction: Option<&'a LayerFactor<'a>>,
 }
 
 impl<'a> Course<'a> {
@@ -138,14 +156,30 @@ impl<'a> Course<'a> {
             body,
             cycle,
             coatings,
+            friction: None,
         }
+    }
+
+    /// Energy per area and cycle of a cell at a worn depth \[J/m^2\].
+    fn dissipated(&self, c: usize, worn: f64) -> f64 {
+        let factor = self.friction.map(|f| f(c, layer_at(worn, self.coatings)));
+        self.cycle.dissipated[c] * factor.unwrap_or(1.0)
     }
 
     /// Depth per cycle \[m\].
     fn rate(&self, state: &State, cycles: f64) -> Result<Vec<f64>, Error> {
+        let of_layers: Vec<f64>;
+        let dissipated = if self.friction.is_some() {
+            let cells = state.worn.iter().enumerate();
+            of_layers = cells.map(|(c, worn)| self.dissipated(c, *worn)).collect();
+            &of_layers[..]
+        } else {
+            self.cycle.dissipated
+        };
         let cycle = CellCycle {
             worn: &state.worn,
             energy: &state.energy,
+            dissipated,
             cycles,
             ..*self.cycle
         };
@@ -226,6 +260,7 @@ impl<'a> Course<'a> {
             for c in 0..cells {
                 let part = end[c].unwrap_or(1.0);
                 let passed = part * steps[c].cycles;
+                state.energy[c] += self.dissipated(c, state.worn[c]) * passed;
                 if part == 1.0 && steps[c].ends_at.is_some() && step < STEPS {
                     let bottom = steps[c].ends_at.unwrap_or_default();
                     state.lost[c] += bottom - state.worn[c];
@@ -234,7 +269,6 @@ impl<'a> Course<'a> {
                     state.lost[c] += mean[c] * passed;
                     state.worn[c] += mean[c] * passed;
                 }
-                state.energy[c] += self.cycle.dissipated[c] * passed;
                 remaining[c] = (remaining[c] - passed).max(0.0);
             }
             if remaining
@@ -250,7 +284,7 @@ impl<'a> Course<'a> {
     /// The next step of a cell with the rate `first` and `left` cycles to go: to the end, to the
     /// bottom of its layer or to the next place of a table.
     fn next_step(&self, state: &State, c: usize, first: f64, remaining: f64) -> CellStep {
-        let grows = self.cycle.dissipated[c].max(0.0);
+        let grows = self.dissipated(c, state.worn[c]).max(0.0);
         let mut step = CellStep {
             first,
             grows,
@@ -360,7 +394,7 @@ mod tests {
             frequency: f64::NAN,
             ..CellCycle::default()
         };
-        let Coefficients { mean, .. } = coefficients(body, &cycle, coatings, n).unwrap();
+        let Coefficients { mean, .. } = coefficients(body, &cycle, (coatings, None), n).unwrap();
         mean.iter().zip(WAYS).map(|(k, way)| k * way).collect()
     }
 

@@ -33,6 +33,8 @@ pub(crate) struct CycleResults {
     pub(crate) stick: Vec<bool>,
     /// Cells of a line contact that contain the border of the stick zone.
     pub(crate) cuts: Vec<Cut>,
+    /// Coefficient of friction that the exposed surface gave; empty where it gives none.
+    pub(crate) surface_mu: Vec<f64>,
 }
 
 /// Sums over the increments of a cycle.

@@ -11,6 +11,9 @@ pub(crate) const MOST_EVALUATIONS: usize = 60;
 /// Evaluations after which the acceleration begins again, with half of each step: a region that opens
 /// and closes by turns.
 const PATIENCE: usize = 15;
+/// Evaluations after which the closed region stays as it is. A cell at its border may be closed by its
+/// debris and open without: it has no fixed point, however short the jump.
+const HOLDS_REGION: usize = 30;
 
 /// An evaluation of the fixed point.
 pub(crate) enum Step {
@@ -108,6 +111,7 @@ impl FixedPoint {
         let packed = self.anderson.accelerate(&from, to);
         let (bed, aerated) = packed.split_at(image.bed.len());
         let mut next_fields = image;
+        next_fields.holds_region = self.evaluations >= HOLDS_REGION;
         next_fields.bed = bed.iter().map(|h| (h * self.scale).max(0.0)).collect();
         next_fields.aerated = aerated.iter().map(|s| s.clamp(0.0, 1.0)).collect();
         third_body.protect(&mut next_fields);

@@ -36,6 +36,10 @@ pub struct Jump {
     pub dissipated: f64,
     /// Energy dissipated in one cycle on the surfaces at the end \[J\].
     pub dissipated_per_cycle: f64,
+    /// Mean coefficient of friction in the jump: the energy dissipated over the integral of the
+    /// pressure over the slip.
+    #[serde(default)]
+    pub mu: f64,
     /// Largest pressure at the end \[Pa\].
     pub p_max: f64,
     /// Area of the contact at the end \[m^2\].

@@ -11,7 +11,6 @@
 //! two halves, extrapolated to second order; the difference controls its length (`run`). Within a
 //! jump each cell follows its law through the bends of tables, layers and laws that stop
 //! (`course`); a jump ends where a table of cycles bends.
-//! tables, layers and laws that stop (`course`); a jump ends where a table of cycles bends.
 
 #![forbid(unsafe_code)]
 
@@ -49,6 +48,7 @@ mod slip_zone;
 mod spots;
 mod state;
 mod stroke;
+mod surface_friction;
 mod table;
 mod third_body;
 mod third_body_table;

@@ -63,6 +63,8 @@ pub(crate) struct Loss {
     pub(crate) slid: Vec<f64>,
     /// Energy dissipated in all its cycles \[J\].
     pub(crate) dissipated: f64,
+    /// Integral of the pressure over the slip in all its cycles \[N m\].
+    pub(crate) loading: f64,
     /// Debris at its end, with a bed.
     pub(crate) debris: Option<Debris>,
 }
@@ -90,6 +92,16 @@ impl Debris {
 }
 
 impl Loss {
+    /// Mean coefficient of friction, `nominal` where nothing slips under pressure.
+    pub(crate) fn mean_mu(&self, nominal: f64) -> f64 {
+        let mu = self.dissipated / self.loading;
+        if self.loading > 0.0 && mu > 0.0 {
+            mu
+        } else {
+            nominal
+        }
+    }
+
     /// Root of the sum of squares of the change of the depths to another loss \[m\].
     pub(crate) fn depth_change(&self, other: &Self) -> f64 {
         let pairs = self
@@ -109,6 +121,7 @@ impl Loss {
         add_to(&mut self.slid, &other.slid);
         self.cycles += other.cycles;
         self.dissipated += other.dissipated;
+        self.loading += other.loading;
         self.debris = match (self.debris, &other.debris) {
             (Some(first), Some(second)) => Some(Debris {
                 bed: second.bed.clone(),
@@ -138,6 +151,7 @@ impl Loss {
         }
         extrapolate(&mut self.slid, &whole.slid);
         self.dissipated = 2.0 * self.dissipated - whole.dissipated;
+        self.loading = 2.0 * self.loading - whole.loading;
         if let (Some(debris), Some(whole)) = (self.debris.take(), &whole.debris) {
             self.debris = Some(debris.extrapolated(whole));
         }
@@ -186,6 +200,7 @@ mod tests {
                 energy: [field(), field()],
                 slid: field(),
                 dissipated,
+                loading: dissipated,
                 debris: None,
             };
             let (halves, whole) = (loss(3.0), loss(2.0));

@@ -22,19 +22,20 @@ use std::sync::atomic::AtomicBool;
 
 use contact_core::Error;
 use contact_core::cells::Drive;
-use contact_core::march::{Increment, March, Reached, State};
+use contact_core::march::{ExposedSurface, Increment, March, Reached, State};
 use contact_core::scene::{Branch, Dependence, Friction, FrictionHistory, PathGrid, Scene};
 use serde::{Deserialize, Serialize};
 
-use super::course::coefficients;
+use super::course::{LayerFactor, coefficients};
 use super::cycled::{CycleResults, Sums};
 use super::fixed_point::{FixedPoint, MOST_EVALUATIONS, Step};
-use super::law::CellCycle;
+use super::law::{CellCycle, layer_at};
 use super::loss::{Loss, Worn};
 use super::outward::extrapolate_outward;
 use super::pressing::Pressing;
 use super::rates::Rates;
 use super::settings::{Jumps, Wear, thicknesses};
+use super::surface_friction::SurfaceFriction;
 use super::third_body::{Meeting, ThirdBody, ThirdFields};
 use super::within_cell::half_cell_error;
 
@@ -86,6 +87,13 @@ pub(crate) struct Marched {
     third_body: Option<ThirdBody>,
     /// Aerated share of the settled contact; empty without a model of the air.
     pub(crate) aerated: Vec<f64>,
+    /// Aerated share of the surfaces of the next cycle.
+    cycle_aerated: Vec<f64>,
+    /// Dependence of friction on the exposed surface, and whether a user's law has one.
+    surface: Option<SurfaceFriction>,
+    has_law: bool,
+    /// The coefficient of a fresh surface.
+    pub(crate) nominal_mu: f64,
 }
 
 impl Marched {
@@ -124,6 +132,13 @@ impl Marched {
         if !goes_on {
             if worn.deepest() > 0.0 {
                 let gap = gap(&h, worn, wear.opens());
+                if let Some(surface) = SurfaceFriction::new(&scene) {
+                    let mu = surface.of_cells(&worn.depth[surface.body], &[], &worn.bed);
+                    march.expose(ExposedSurface {
+                        friction: mu.iter().map(|mu| mu / scene.friction.mu).collect(),
+                        ..ExposedSurface::default()
+                    });
+                }
                 march.go_on_from(march.state().clone(), &gap);
             }
             for _ in 0..lead_in {
@@ -147,6 +162,10 @@ impl Marched {
             p: Vec::new(),
             third_body: ThirdBody::new(wear, &pressing),
             aerated: Vec::new(),
+            cycle_aerated: Vec::new(),
+            surface: SurfaceFriction::new(&scene),
+            has_law: scene.friction.law.is_some(),
+            nominal_mu: scene.friction.mu,
             state,
             wear: wear.clone(),
             pressing,
@@ -179,7 +198,33 @@ impl Marched {
             self.third_body = Some(third_body);
             self.aerated = fields?.0.aerated;
         }
+        self.cycle_aerated.clone_from(&self.aerated);
         Ok(())
+    }
+
+    /// Exposes worn surfaces to the friction of the next cycle; returns its coefficients, empty where
+    /// they are those of a fresh surface.
+    fn expose(&mut self, worn: &Worn) -> Vec<f64> {
+        if self.surface.is_none() && !self.has_law {
+            return Vec::new();
+        }
+        let surface = self.surface.as_ref();
+        let mu = surface.map_or_else(Vec::new, |surface| {
+            surface.of_cells(&worn.depth[surface.body], &self.cycle_aerated, &worn.bed)
+        });
+        let layer = [0, 1].map(|b| {
+            let layers = &self.coatings[b];
+            let depths = worn.depth[b].iter();
+            depths.map(|w| layer_at(*w, layers) as f64).collect()
+        });
+        self.march.expose(ExposedSurface {
+            friction: mu.iter().map(|mu| mu / self.nominal_mu).collect(),
+            worn: worn.depth.clone(),
+            layer,
+            bed: worn.bed.clone(),
+            aerated: self.cycle_aerated.clone(),
+        });
+        mu
     }
 
     /// The fields of the third body under the pressure p, and the gap that they follow from.
@@ -210,6 +255,7 @@ impl Marched {
 
     /// The loss of both bodies in n cycles.
     pub(crate) fn jump(&mut self, worn: &Worn, n: f64, implicit: bool) -> Result<Loss, Error> {
+        self.cycle_aerated.clone_from(&self.aerated);
         let mut p = self.state.cycled.p.clone();
         if !implicit {
             return self.loss_of_jump(worn, n, &mut p, false);
@@ -321,6 +367,7 @@ impl Marched {
             };
             let image = third_body.respond(worn, &meeting, (n, &supply, lost), &fields)?;
             loss.debris = image.to_debris();
+            self.cycle_aerated.clone_from(&image.aerated);
             if !implicit {
                 return Ok(loss);
             }
@@ -399,6 +446,7 @@ impl Marched {
             start.slip_length.clone_from(&worn.slid);
             start.dissipated.clone_from(&worn.energy[0]);
         }
+        let surface_mu = self.expose(worn);
         self.march.go_on_from(start, &gap);
         self.march.after_cycles(worn.cycles);
         // The contact adapts to the worn surfaces; the slip of this increment belongs to no cycle.
@@ -416,15 +464,14 @@ impl Marched {
         self.cycles_solved += 1;
         let state = self.march.state().clone();
         let coupling = self.march.plan().coupling;
-        Ok((
-            sums.finish(
-                &mut self.pressing,
-                coupling,
-                (worn, self.wear.opens()),
-                &gap,
-            ),
-            state,
-        ))
+        let mut cycled = sums.finish(
+            &mut self.pressing,
+            coupling,
+            (worn, self.wear.opens()),
+            &gap,
+        );
+        cycled.surface_mu = surface_mu;
+        Ok((cycled, state))
     }
 
     /// Rates of wear of every cell in n cycles from worn surfaces on. Cells outside the contact get
@@ -446,8 +493,16 @@ impl Marched {
         });
         let mut mu = extrapolate_outward(rows, cells, |c| {
             let slips = is_pressed(c) && cycled.pressure_times_slip[c] > 0.0;
-            slips.then(|| cycled.dissipated[c] / cycled.pressure_times_slip[c])
+            let of_surface = cycled.surface_mu.get(c).copied().unwrap_or(1.0);
+            slips.then(|| cycled.dissipated[c] / (cycled.pressure_times_slip[c] * of_surface))
         });
+        if let Some(surface) = &self.surface {
+            // The march has solved the factors of place and history; the exposed surface is that of
+            // the jump.
+            let depth = &worn.depth[surface.body];
+            let of_cells = surface.of_cells(depth, &fields.aerated, &fields.bed);
+            mu.iter_mut().zip(of_cells).for_each(|(mu, of)| *mu *= of);
+        }
         let mut slip_distance = extrapolate_outward(rows, cells, |c| {
             is_pressed(c).then(|| cycled.slip_distance[c])
         });
@@ -460,9 +515,23 @@ impl Marched {
         }
         let p: Vec<f64> = cycled.p.iter().map(|p| p.max(1e-6 * largest)).collect();
         let pressure_times_slip: Vec<f64> = sigma.iter().zip(&p).map(|(s, p)| s * p).collect();
-        let dissipated: Vec<f64> = (0..cells).map(|c| mu[c] * pressure_times_slip[c]).collect();
         let (mut k, mut above) = ([vec![], vec![]], [vec![], vec![]]);
-        for b in 0..2 {
+        let order = if self.surface.as_ref().is_some_and(|s| s.body == 1) {
+            [1, 0]
+        } else {
+            [0, 1]
+        };
+        for b in order {
+            let dissipated: Vec<f64> = (0..cells).map(|c| mu[c] * pressure_times_slip[c]).collect();
+            let surface = self.surface.as_ref();
+            let surface = surface.filter(|s| s.body == b && s.has_layers());
+            let friction = surface.map(|surface| {
+                let mu = move |c: usize, layer: usize| {
+                    let of_layer = surface.mu_of_layer(layer);
+                    surface.combine(of_layer, c, &fields.aerated, &fields.bed)
+                };
+                move |c: usize, layer: usize| mu(c, layer) / mu(c, surface.layer(worn.depth[b][c]))
+            });
             let cycle = CellCycle {
                 pressure_times_slip: &pressure_times_slip,
                 slip_distance: &slip_distance,
@@ -475,8 +544,12 @@ impl Marched {
                 debris: &fields.bed,
                 protection: &fields.protection,
             };
-            let body_coefficients =
-                coefficients(&self.wear.bodies[b], &cycle, &self.coatings[b], n)?;
+            let friction = friction.as_ref().map(|f| f as &LayerFactor<'_>);
+            let layers = (&self.coatings[b][..], friction);
+            let body_coefficients = coefficients(&self.wear.bodies[b], &cycle, layers, n)?;
+            if !body_coefficients.mu.is_empty() {
+                mu = body_coefficients.mu;
+            }
             // Cells outside the contact wear at the pressure of the jump's end alone.
             let means = body_coefficients
                 .mean

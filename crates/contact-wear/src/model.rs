@@ -61,6 +61,8 @@ pub(crate) struct CycleOutput<'a> {
     pub(crate) stick: Option<&'a [bool]>,
     pub(crate) stick_ratio: f64,
     pub(crate) dissipated_per_cycle: f64,
+    /// Mean coefficient of friction.
+    pub(crate) mu: f64,
     /// delta_x, T_x, delta_y, T_y along the loop \[m, N\].
     pub(crate) corners: Vec<[f64; 4]>,
 }
@@ -178,16 +180,19 @@ impl Model {
                     stick: None,
                     stick_ratio: 0.0,
                     dissipated_per_cycle: s.dissipated_per_cycle(),
+                    mu: s.mean_mu(),
                     corners: s
                         .corners
                         .iter()
-                        .map(|[u, _, T]| [*u, *T, 0.0, 0.0])
+                        .map(|[u, _, T]| [*u, s.force_factor() * T, 0.0, 0.0])
                         .collect(),
                 }
             }
             Self::Marched(m) => {
                 let cycled = m.cycled();
                 let area = m.pressing.cell_area();
+                let dissipated = cycled.dissipated.iter().sum::<f64>();
+                let loading = cycled.pressure_times_slip.iter().sum::<f64>();
                 CycleOutput {
                     p: &cycled.p,
                     shift: 0.0,
@@ -195,7 +200,12 @@ impl Model {
                     aerated: &m.aerated,
                     stick: Some(&cycled.stick),
                     stick_ratio: cycled.stick_ratio,
-                    dissipated_per_cycle: cycled.dissipated.iter().sum::<f64>() * area,
+                    dissipated_per_cycle: dissipated * area,
+                    mu: if loading > 0.0 {
+                        dissipated / loading
+                    } else {
+                        m.nominal_mu
+                    },
                     corners: cycled.corners.clone(),
                 }
             }

@@ -88,6 +88,7 @@ impl LossRate {
             slid: (0..p.len()).map(slip_of).collect(),
             energy: [energy.clone(), energy],
             dissipated: dissipated * cell_area,
+            loading: (0..p.len()).map(loading).sum::<f64>() * cell_area,
             debris: None,
         }
     }

@@ -433,6 +433,7 @@ impl WearRun {
             pressure_error: tried.pressure_error,
             p_max_error: seen.p_max_error.hypot(tried.pressure_error),
             retries,
+            mu: tried.loss.mean_mu(seen.mu),
             volume_halfway: middle.each_ref().map(|w| w.iter().sum::<f64>() * area),
             depth_halfway: middle
                 .each_ref()
@@ -444,6 +445,21 @@ impl WearRun {
         state.events.extend(new);
         state.history.push(jump.clone());
         Ok(jump)
+    }
+
+    /// Sentences on settings and results that are allowed but unlikely.
+    pub fn doubts(&self) -> Vec<String> {
+        let p_max = self.history().last().map_or(0.0, |jump| jump.p_max);
+        let exceeded = self.wear.yield_stress.filter(|limit| p_max > *limit);
+        let pressure = exceeded.map(|limit| {
+            format!(
+                "the largest pressure, {:.0} MPa, is above wear.yield_stress, {:.0} MPa: a core that hardly wears would \
+                 yield and spread its load, so that it is wider and less loaded than computed",
+                1e-6 * p_max,
+                1e-6 * limit
+            )
+        });
+        self.wear.doubts().into_iter().chain(pressure).collect()
     }
 
     /// Every jump so far.

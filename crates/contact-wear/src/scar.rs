@@ -237,7 +237,8 @@ impl Wear {
 
     /// A warning before the run: the scar of all cycles is wider than the grid.
     pub fn doubt_of_grid(&self, scene: &Scene) -> Option<String> {
-        let scar = self.scar(scene)?;
+        // The width that a bed leaves follows from the run alone.
+        let scar = self.scar(scene).filter(|_| self.bed.is_none())?;
         (scar.cycles_on_grid < self.cycles).then(|| {
             let (extent, _) = scene.grid.extent();
             let unit = if scene.grid.plane_strain { "m^2" } else { "m^3" };

@@ -7,6 +7,7 @@ use super::air::{Air, check_positive};
 use super::debris_bed::DebrisBed;
 use super::law::BodyWear;
 use super::stroke::stroke;
+use super::surface_friction::SurfaceFriction;
 
 /// Most cycles of a run.
 const MOST_CYCLES: f64 = 1e15;
@@ -92,6 +93,9 @@ pub struct Wear {
     pub bed: Option<DebrisBed>,
     /// Gap below which the region between the bodies is closed to the air \[m\] (default 1e-6).
     pub closed_below: f64,
+    /// Yield stress of the softer body \[Pa\], above which the largest pressure is doubted (default
+    /// none). A starved core that hardly wears carries more and more of the load.
+    pub yield_stress: Option<f64>,
     /// Worn depth over the thickness of the coatings from which the event `thinned` is reported
     /// (default 0.1). The elastic response does not change with the thickness.
     pub event_depth_fraction: f64,
@@ -119,6 +123,7 @@ impl Wear {
             air: None,
             bed: None,
             closed_below: 1e-6,
+            yield_stress: None,
             event_depth_fraction: 0.1,
             note: String::new(),
             doubts: Vec::new(),
@@ -194,6 +199,7 @@ impl Wear {
             let allowed = "\"cycles\", \"slip\" or \"dissipated\" over cycles of wear";
             return Err(Error::invalid("friction.history.of", "increment", allowed));
         }
+        SurfaceFriction::check(scene, self)?;
         self.jumps.check()
     }
 
@@ -301,6 +307,9 @@ impl Wear {
     /// Fails at settings of air and bed without a meaning.
     fn check_third_body(&self) -> Result<(), Error> {
         check_positive("wear.closed_below", self.closed_below, "m")?;
+        if let Some(yield_stress) = self.yield_stress {
+            check_positive("wear.yield_stress", yield_stress, "Pa")?;
+        }
         if let Some(air) = &self.air {
             air.check()?;
             if self.frequency.is_none() {

@@ -32,7 +32,7 @@ use contact_core::Error;
 use contact_core::plan::Plan;
 use contact_core::scene::{FrictionHistory, Scene};
 
-use super::course::{Coefficients, coefficients};
+use super::course::{Coefficients, LayerFactor, coefficients};
 use super::fixed_point::{FixedPoint, MOST_EVALUATIONS, Step};
 use super::law::CellCycle;
 use super::loss::{Loss, Worn};
@@ -41,6 +41,7 @@ use super::pressing::Pressing;
 use super::settings::{Wear, thicknesses};
 use super::shift::Shift;
 use super::stroke::{Corner, Frame, Place, stroke};
+use super::surface_friction::SurfaceFriction;
 use super::third_body::{Meeting, ThirdBody, ThirdFields};
 
 /// Change of the pressures in a round that ends the rounds, over the pressures (root mean squares).
@@ -50,6 +51,8 @@ const ROUGH: f64 = 10.0;
 /// Most corrections of a law that changes within a jump, and the relative change of the depth (root
 /// mean squares) that ends them.
 const CORRECTIONS: usize = 8;
+/// Evaluations of the oxygen under friction that depends on it.
+const AERATIONS: usize = 8;
 const AGREES: f64 = 0.01;
 /// Difference of two rates, over the largest one, up to which they are the same.
 const ROUNDING: f64 = 1e-12;
@@ -68,6 +71,11 @@ pub(crate) struct Sliding {
     /// Coefficient of friction, and its dependence on cycles.
     mu: f64,
     history: Option<FrictionHistory>,
+    /// Its dependence on the exposed surface.
+    surface: Option<SurfaceFriction>,
+    /// Coefficient of the cells of the body whose layers count, before its dependence on cycles; empty
+    /// where it is uniform.
+    mu_of_cells: Vec<f64>,
     /// Cycles done.
     cycles: f64,
     /// Gap between the unworn surfaces at the places \[m\].
@@ -136,6 +144,8 @@ impl Sliding {
             coatings: [thicknesses(&scene.body1), thicknesses(&scene.body2)],
             mu: scene.friction.mu,
             history: scene.friction.history.clone(),
+            surface: SurfaceFriction::new(scene),
+            mu_of_cells: Vec::new(),
             cycles: worn.cycles,
             h,
             third_body,
@@ -166,17 +176,79 @@ impl Sliding {
         self.aerate(worn)
     }
 
-    /// Computes the aerated share of the present contact.
+    /// Computes the aerated share and the coefficients of friction of the present contact.
     fn aerate(&mut self, worn: &Worn) -> Result<(), Error> {
-        let Some(third_body) = self.third_body.take() else {
-            return Ok(());
+        self.aerated.clear();
+        if let Some(third_body) = self.third_body.take() {
+            self.lay_bed(&worn.bed);
+            // Friction that depends on the oxygen heats the contact that consumes it.
+            let coupled = self
+                .surface
+                .as_ref()
+                .is_some_and(SurfaceFriction::depends_on_air);
+            for _ in 0..if coupled { AERATIONS } else { 1 } {
+                let contact = self.meet(worn, &self.aerated.clone());
+                let fields = third_body.begin(worn, &contact.meeting())?;
+                self.aerated = fields.aerated;
+            }
+            self.third_body = Some(third_body);
+        }
+        self.mu_of_cells = match &self.surface {
+            Some(surface) => {
+                let fields = ThirdFields::present(&self.aerated, &self.bed);
+                self.mu_of_body(surface, surface.body, worn, &fields)
+            }
+            None => Vec::new(),
         };
-        self.lay_bed(&worn.bed);
-        let contact = self.meet(worn);
-        let fields = third_body.begin(worn, &contact.meeting());
-        self.third_body = Some(third_body);
-        self.aerated = fields?.aerated;
         Ok(())
+    }
+
+    /// Coefficients of the cells of a body b, before their dependence on cycles.
+    fn mu_of_body(
+        &self,
+        surface: &SurfaceFriction,
+        b: usize,
+        worn: &Worn,
+        fields: &ThirdFields,
+    ) -> Vec<f64> {
+        let aerated = &self.carry(&fields.aerated, 1.0)[b];
+        let bed = &self.carry(&fields.bed, 0.0)[b];
+        let of_layers = surface.mu_of_layers(&worn.depth[surface.body]);
+        let of_layers = if b == surface.body || !surface.has_layers() {
+            of_layers
+        } else {
+            self.carry_across(&of_layers, surface.body)
+        };
+        let cells = of_layers.iter().enumerate();
+        cells
+            .map(|(c, mu)| surface.combine(*mu, c, aerated, bed))
+            .collect()
+    }
+
+    /// A field of a body in the coordinates of the other: its mean over what passes, weighted with
+    /// the pressure.
+    fn carry_across(&self, field: &[f64], from: usize) -> Vec<f64> {
+        let largest = self.p.iter().flatten().fold(0.0, |m: f64, p| m.max(*p));
+        let least = 1e-9 * largest + f64::MIN_POSITIVE;
+        let (rows, to) = (self.pressing.rows(), 1 - from);
+        let mut sums = [0, 1].map(|_| vec![0.0; field.len()]);
+        for (i, place) in self.places.iter().enumerate() {
+            let mut at_place = vec![0.0; field.len()];
+            self.shifts[i][from].read(field, rows, &mut at_place);
+            let weight: Vec<f64> = self.p[i].iter().map(|p| p + least).collect();
+            let product: Vec<f64> = weight.iter().zip(&at_place).map(|(w, f)| w * f).collect();
+            self.shifts[i][to].put(&product, place.slip, rows, &mut sums[0]);
+            self.shifts[i][to].put(&weight, place.slip, rows, &mut sums[1]);
+        }
+        let mean = |(c, (sum, weight)): (usize, (&f64, &f64))| {
+            if *weight > 0.0 {
+                sum / weight
+            } else {
+                field[c]
+            }
+        };
+        let cells = sums[0].iter().zip(&sums[1]).enumerate();
+        cells.map(mean).collect()
     }
 
     /// The loss of both bodies in n cycles; sets the pressures at the end. Rates that change with the
@@ -229,7 +301,7 @@ impl Sliding {
     ) -> Result<Loss, Error> {
         self.lay_bed(&worn.bed);
         self.pressing.begin();
-        let before = self.meet(worn);
+        let before = self.meet(worn, &self.aerated.clone());
         let mut fields = third_body.begin(worn, &before.meeting())?;
         let mut fixed_point = FixedPoint::default();
         for _ in 0..MOST_EVALUATIONS {
@@ -243,7 +315,7 @@ impl Sliding {
             let after = if implicit {
                 let mut end = worn.clone();
                 end.add(&loss);
-                Some(self.meet(&end))
+                Some(self.meet(&end, &fields.aerated))
             } else {
                 None
             };
@@ -269,8 +341,8 @@ impl Sliding {
         }
     }
 
-    /// The contact that the third body meets under the present pressures.
-    fn meet(&mut self, worn: &Worn) -> Contact {
+    /// The contact that the third body meets under the present pressures, with this aerated share.
+    fn meet(&mut self, worn: &Worn, aerated: &[f64]) -> Contact {
         let (cells, s) = (self.pressing.cells(), self.slip_distance());
         let mut contact = Contact {
             gap: vec![0.0; cells],
@@ -289,6 +361,24 @@ impl Sliding {
             }
         }
         contact.dissipated = contact.p.iter().map(|p| self.mu() * s * p).collect();
+        if let Some(surface) = &self.surface {
+            let of_layers = surface.mu_of_layers(&worn.depth[surface.body]);
+            let mut mu = vec![0.0; cells];
+            let mut at_place = vec![0.0; cells];
+            for i in 0..self.places.len() {
+                at_place.fill(0.0);
+                let shift = &self.shifts[i][surface.body];
+                shift.read(&of_layers, self.pressing.rows(), &mut at_place);
+                let weight = self.places[i].slip / s;
+                mu.iter_mut()
+                    .zip(&at_place)
+                    .for_each(|(mu, f)| *mu += weight * f);
+            }
+            for c in 0..cells {
+                let mu = surface.combine(mu[c], c, aerated, &self.bed);
+                contact.dissipated[c] *= mu / self.mu;
+            }
+        }
         contact
     }
 
@@ -431,12 +521,51 @@ impl Sliding {
 
     /// Energy dissipated in a cycle with the present pressures \[J\].
     pub(crate) fn dissipated_per_cycle(&self) -> f64 {
-        let slid = |i: usize| self.places[i].slip * self.p[i].iter().sum::<f64>();
-        let slid: f64 = (0..self.places.len()).map(slid).sum();
-        self.mu() * slid * self.pressing.cell_area()
+        if let Some(surface) = &self.surface {
+            let ways = &self.integrate(&self.p)[surface.body];
+            let products = ways.iter().zip(&self.mu_of_cells).map(|(way, mu)| way * mu);
+            return products.sum::<f64>() * (self.mu() / self.mu) * self.pressing.cell_area();
+        }
+        self.mu() * self.slid_force() * self.pressing.cell_area()
     }
 
-    /// The coefficient of friction after the cycles so far.
+    /// Sum over places and cells of pressure times slip in a cycle \[Pa m\].
+    fn slid_force(&self) -> f64 {
+        let slid = |i: usize| self.places[i].slip * self.p[i].iter().sum::<f64>();
+        (0..self.places.len()).map(slid).sum()
+    }
+
+    /// Integral of the pressure over the slip in a cycle \[N m\].
+    fn loading_per_cycle(&self) -> f64 {
+        self.slid_force() * self.pressing.cell_area()
+    }
+
+    /// Mean coefficient of friction, weighted with the pressure.
+    pub(crate) fn mean_mu(&self) -> f64 {
+        let Some(surface) = &self.surface else {
+            return self.mu();
+        };
+        let ways = &self.integrate(&self.p)[surface.body];
+        let sum: f64 = ways
+            .iter()
+            .zip(&self.mu_of_cells)
+            .map(|(w, mu)| w * mu)
+            .sum();
+        let loading: f64 = ways.iter().sum();
+        self.mu() / self.mu
+            * if loading > 0.0 {
+                sum / loading
+            } else {
+                self.mu
+            }
+    }
+
+    /// Factor of the force over that of the stroke, whose coefficient is the one before any cycle.
+    pub(crate) fn force_factor(&self) -> f64 {
+        self.mean_mu() / self.mu
+    }
+
+    /// The coefficient of friction after the cycles so far, of a fresh surface.
     fn mu(&self) -> f64 {
         let factor = self.history.as_ref().map_or(1.0, |h| h.factor(self.cycles));
         self.mu * factor
@@ -445,7 +574,16 @@ impl Sliding {
     fn loss(&self, n: f64, rates: &Rates, ways: &[Vec<f64>; 2]) -> Loss {
         let depth = [0, 1].map(|b| rates.depth(b, n, &ways[b]).collect());
         let mu = self.mu();
-        let energy = [0, 1].map(|b| ways[b].iter().map(|way| n * mu * way).collect::<Vec<f64>>());
+        let energy = [0, 1].map(|b| match &rates.mu[b][..] {
+            [] => ways[b].iter().map(|way| n * mu * way).collect::<Vec<f64>>(),
+            of_cells => (ways[b].iter().zip(of_cells))
+                .map(|(way, mu)| n * mu * way)
+                .collect(),
+        });
+        let dissipated = match &self.surface {
+            Some(surface) => energy[surface.body].iter().sum::<f64>() * self.pressing.cell_area(),
+            None => n * self.dissipated_per_cycle(),
+        };
         let slides = |p: &f64| {
             if *p > 0.0 {
                 n * self.slip_distance()
@@ -458,7 +596,8 @@ impl Sliding {
             depth,
             slid: self.p[self.middle()].iter().map(slides).collect(),
             energy,
-            dissipated: n * self.dissipated_per_cycle(),
+            dissipated,
+            loading: n * self.loading_per_cycle(),
             debris: None,
         }
     }
@@ -501,7 +640,14 @@ impl Sliding {
         let aerated = self.carry(&fields.aerated, 1.0);
         let debris = self.carry(&fields.bed, 0.0);
         let protection = self.carry(&fields.protection, 1.0);
-        for b in 0..2 {
+        let mut mu = [vec![], vec![]];
+        // The body whose layers count comes first: the other one rubs against what it exposes.
+        let order = if self.surface.as_ref().is_some_and(|s| s.body == 1) {
+            [1, 0]
+        } else {
+            [0, 1]
+        };
+        for b in order {
             // Cells that come into contact within the jump need a coefficient, too: they get a
             // small pressed way.
             let least = 1e-9 * ways[b].iter().fold(0.0, |m: f64, w| m.max(*w));
@@ -510,7 +656,14 @@ impl Sliding {
                 .iter()
                 .map(|w| if *w > 0.0 { *w } else { s })
                 .collect();
-            let dissipated: Vec<f64> = pressure_times_slip.iter().map(|w| self.mu() * w).collect();
+            let (level, of_cells) = (self.mu(), self.mu_in_jump(b, worn, fields, &mu));
+            let dissipated: Vec<f64> = match &of_cells {
+                None => pressure_times_slip.iter().map(|w| level * w).collect(),
+                Some(mu) => (pressure_times_slip.iter().zip(mu))
+                    .map(|(w, mu)| mu * w)
+                    .collect(),
+            };
+            let friction = self.layer_factor(b, worn, (&aerated[b], &debris[b]));
             let cycle = CellCycle {
                 pressure_times_slip: &pressure_times_slip,
                 slip_distance: &slip_distance,
@@ -523,8 +676,21 @@ impl Sliding {
                 debris: &debris[b],
                 protection: &protection[b],
             };
-            let Coefficients { mean, end } =
-                coefficients(&self.wear.bodies[b], &cycle, &self.coatings[b], n)?;
+            let Coefficients {
+                mean,
+                end,
+                mu: in_jump,
+            } = coefficients(
+                &self.wear.bodies[b],
+                &cycle,
+                (&self.coatings[b], friction.as_deref()),
+                n,
+            )?;
+            mu[b] = if in_jump.is_empty() {
+                of_cells.unwrap_or_default()
+            } else {
+                in_jump
+            };
             let means = mean.iter().zip(&end).zip(&ways[b]);
             above[b] = means
                 .map(|((mean, end), slip_distance)| (mean - end) * slip_distance)
@@ -535,7 +701,46 @@ impl Sliding {
             k,
             excess: above,
             aerated,
+            mu,
         })
+    }
+
+    /// The coefficients of friction of body b in a jump: at its start for the body whose layers count,
+    /// for the other one those that the first body has on average in the jump.
+    fn mu_in_jump(
+        &self,
+        b: usize,
+        worn: &Worn,
+        fields: &ThirdFields,
+        known: &[Vec<f64>; 2],
+    ) -> Option<Vec<f64>> {
+        let surface = self.surface.as_ref()?;
+        if b != surface.body && surface.has_layers() {
+            return Some(self.carry_across(&known[surface.body], surface.body));
+        }
+        let factor = self.mu() / self.mu;
+        let mut mu = self.mu_of_body(surface, b, worn, fields);
+        for mu in &mut mu {
+            *mu *= factor;
+        }
+        Some(mu)
+    }
+
+    /// Factor of the energy of a cell by its layer, for the body whose layers count.
+    fn layer_factor<'a>(
+        &'a self,
+        b: usize,
+        worn: &'a Worn,
+        (aerated, bed): (&'a [f64], &'a [f64]),
+    ) -> Option<Box<LayerFactor<'a>>> {
+        let surface = self.surface.as_ref();
+        let surface = surface.filter(|s| s.body == b && s.has_layers())?;
+        let mu = move |c: usize, layer: usize| {
+            surface.combine(surface.mu_of_layer(layer), c, aerated, bed)
+        };
+        Some(Box::new(move |c, layer| {
+            mu(c, layer) / mu(c, surface.layer(worn.depth[b][c]))
+        }))
     }
 
     /// The sum of fields of both bodies, shifted to the grid at a place.
@@ -575,6 +780,8 @@ struct Rates {
     excess: [Vec<f64>; 2],
     /// Aerated share; empty without a model of the air.
     aerated: [Vec<f64>; 2],
+    /// Mean coefficient of friction of the cells; empty where it is uniform.
+    mu: [Vec<f64>; 2],
 }
 
 /// The contact that the third body meets.

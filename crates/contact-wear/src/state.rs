@@ -107,6 +107,7 @@ impl WearState {
             aerated_share: mean_under_pressure(seen.aerated, seen.p),
             dissipated: self.dissipated,
             dissipated_per_cycle: seen.dissipated_per_cycle,
+            mu: seen.mu,
             p_max: largest(seen.p),
             contact_area: touches * area,
             stick_ratio: seen.stick_ratio,

@@ -174,10 +174,14 @@ fn check(scene: &Scene, first_branch: usize, rigid: bool) -> Result<(), Error> {
     let refuse =
         |key: String, value: String, allowed: &str| Err(Error::invalid(key, value, allowed));
     let friction = &scene.friction;
-    let allowed_dependences = [Dependence::Direction, Dependence::Cycles];
-    if !friction.depends_only_on(&allowed_dependences[..if rigid { 2 } else { 1 }]) {
+    let allowed_dependences = [
+        Dependence::Direction,
+        Dependence::Cycles,
+        Dependence::Surface,
+    ];
+    if !friction.depends_only_on(&allowed_dependences[..if rigid { 3 } else { 1 }]) {
         let allowed = "one coefficient mu where wear.cycling = \"sliding\", or, without a spring of the rig, one with a \
-                       history of cycles. wear.cycling = \"march\" takes all of them";
+                       history of cycles or of the exposed surface. wear.cycling = \"march\" takes all of them";
         let value = if friction.law.is_some() {
             "a law of your own"
         } else {

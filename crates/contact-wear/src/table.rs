@@ -15,7 +15,7 @@ use super::third_body_table::{air, bed, write_third_body};
 use super::variable::FactorVariable;
 use super::varying::{Factor, Varying};
 
-const KEYS: [&str; 17] = [
+const KEYS: [&str; 18] = [
     "cycles",
     "first_branch",
     "branch_counts",
@@ -30,6 +30,7 @@ const KEYS: [&str; 17] = [
     "air",
     "bed",
     "closed_below",
+    "yield_stress",
     "event_depth_fraction",
     "body1",
     "body2",
@@ -264,6 +265,7 @@ fn wear(section: &Section<'_>) -> Result<Wear, Fault> {
         air: air(section)?,
         bed: bed(section)?,
         closed_below: section.number_or("closed_below", default.closed_below, &[])?,
+        yield_stress: section.number_if("yield_stress", &[])?,
         event_depth_fraction: section.number_or(
             "event_depth_fraction",
             default.event_depth_fraction,

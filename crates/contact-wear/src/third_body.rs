@@ -65,9 +65,22 @@ pub(crate) struct ThirdFields {
     oxygen: Vec<f64>,
     /// Debris that has left in the jump, summed over the cells \[m\].
     ejected: f64,
+    /// The closed region that the fields follow from.
+    region: Option<Region>,
+    /// Whether the next fields follow from the same region.
+    pub(crate) holds_region: bool,
 }
 
 impl ThirdFields {
+    /// Oxygen and debris as they are.
+    pub(crate) fn present(aerated: &[f64], bed: &[f64]) -> Self {
+        Self {
+            aerated: aerated.to_vec(),
+            bed: bed.to_vec(),
+            ..Self::default()
+        }
+    }
+
     /// The debris at the end of a jump.
     pub(crate) fn to_debris(&self) -> Option<Debris> {
         (!self.bed.is_empty()).then(|| Debris {
@@ -134,7 +147,8 @@ impl ThirdBody {
             oxygen: last.oxygen.clone(),
             ..ThirdFields::default()
         };
-        let region = self.region(meeting);
+        let held = last.region.clone().filter(|_| last.holds_region);
+        let region = held.unwrap_or_else(|| self.region(meeting));
         self.aerate(&region, meeting, &mut fields)?;
         if let Some(settings) = &self.bed {
             let transport: Vec<f64> = meeting
@@ -155,6 +169,7 @@ impl ThirdBody {
             fields.bed.iter_mut().for_each(|h| *h = h.max(0.0));
             fields.ejected = spread.ejected + lost;
         }
+        fields.region = Some(region);
         self.protect(&mut fields);
         Ok(fields)
     }

@@ -106,6 +106,9 @@ pub(super) fn bed(wear: &Section<'_>) -> Result<Option<DebrisBed>, Fault> {
 pub(super) fn write_third_body(wear: &Wear) -> String {
     // Writing to a text cannot fail.
     let mut text = format!("closed_below = {:?}\n", wear.closed_below);
+    if let Some(yield_stress) = wear.yield_stress {
+        let _ = writeln!(text, "yield_stress = {yield_stress:?}");
+    }
     if let Some(air) = &wear.air {
         let _ = writeln!(
             text,

@@ -24,9 +24,12 @@ use crate::variables::Variables;
 /// Exception of a law of the user.
 type Raised = Arc<Mutex<Option<PyErr>>>;
 
-/// A callable on arrays, and where what it raises is kept.
+/// Fields of the third body that a function gets if its signature names them.
+const THIRD_BODY: [&str; 2] = ["aerated", "bed"];
+
+/// A callable on arrays, where what it raises is kept, and the fields of the third body that it takes.
 #[derive(Debug)]
-struct Own(Py<PyAny>, Raised);
+struct Own(Py<PyAny>, Raised, Vec<String>);
 
 impl Law for Own {
     fn depth(
@@ -43,7 +46,15 @@ impl Law for Own {
                 array(cycle.worn),
                 cycle.cycles,
             );
-            let answer = self.0.bind(py).call1(arguments)?;
+            let third_body = PyDict::new(py);
+            let fresh = [vec![1.0; depth.len()], vec![0.0; depth.len()]];
+            for (n, field) in [cycle.aerated, cycle.debris].into_iter().enumerate() {
+                if self.2.iter().any(|name| name == THIRD_BODY[n]) {
+                    let field = if field.is_empty() { &fresh[n] } else { field };
+                    third_body.set_item(THIRD_BODY[n], array(field))?;
+                }
+            }
+            let answer = self.0.bind(py).call(arguments, Some(&third_body))?;
             let array: Array<'_, Ix1> = answer.extract()?;
             let values = array.as_array();
             if values.len() != depth.len() {
@@ -70,12 +81,20 @@ impl Law for Own {
 }
 
 /// The functions of both bodies.
-fn laws(given: &[Vec<Py<PyAny>>; 2], raised: &Raised, py: Python<'_>) -> [Vec<Arc<dyn Law>>; 2] {
-    let to_law =
-        |law: &Py<PyAny>| -> Arc<dyn Law> { Arc::new(Own(law.clone_ref(py), raised.clone())) };
-    given
+fn laws(
+    given: &[Vec<Py<PyAny>>; 2],
+    raised: &Raised,
+    py: Python<'_>,
+) -> PyResult<[Vec<Arc<dyn Law>>; 2]> {
+    let to_law = |law: &Py<PyAny>| -> PyResult<Arc<dyn Law>> {
+        let names = from_python(py, "accepted_keywords")?;
+        let names = names.call1((law, THIRD_BODY.to_vec()))?.extract()?;
+        Ok(Arc::new(Own(law.clone_ref(py), raised.clone(), names)))
+    };
+    let [body1, body2] = given
         .each_ref()
-        .map(|body| body.iter().map(to_law).collect())
+        .map(|body| body.iter().map(to_law).collect::<PyResult<Vec<_>>>());
+    Ok([body1?, body2?])
 }
 
 /// Surfaces to begin on: cycles, energy dissipated, the fields worn1, worn2, energy1, energy2, slid, bed, and the
@@ -124,7 +143,7 @@ pub(crate) fn wear<'py>(
 ) -> PyResult<Option<StoredVariable<'py>>> {
     scene.0.check().map_err(scene_to_python)?;
     let raised = Raised::default();
-    let python_laws = laws(&own, &raised, py);
+    let python_laws = laws(&own, &raised, py)?;
     let (scene, wear) =
         core::Wear::from_table(&scene.0, &wear.0, &python_laws).map_err(to_python)?;
     if let Some(doubt) = wear.doubt_of_grid(&scene) {
@@ -185,7 +204,7 @@ pub(crate) fn resume_wear(
 ) -> PyResult<()> {
     let raised = Raised::default();
     let friction = friction_law.map(own_law).transpose()?;
-    let python_laws = laws(&own, &raised, py);
+    let python_laws = laws(&own, &raised, py)?;
     let stop = Arc::<AtomicBool>::default();
     let outcome = interruptible(py, &stop, || {
         take_up(&store, &python_laws, friction.as_ref(), &stop)

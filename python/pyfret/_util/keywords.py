@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 from pyfret._util.names import meant
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
-__all__ = ["check_places", "nearest_names", "refuse_unknown", "unknown_keyword"]
+__all__ = ["accepted_keywords", "check_places", "nearest_names", "refuse_unknown", "unknown_keyword"]
 
 #: Parameters that are given by position.
 POSITIONAL = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
@@ -59,6 +59,20 @@ def refuse_unknown(call: str, keywords: Iterable[str], known: Sequence[str]) -> 
     refusal = unknown_keyword(call, keywords, known)
     if refusal is not None:
         raise refusal
+
+
+def accepted_keywords(function: Callable[..., Any], names: Sequence[str]) -> list[str]:
+    """Return the names that a user's function takes by keyword, beside its five first arguments."""
+    try:
+        parameters = list(inspect.signature(function).parameters.values())
+    except (TypeError, ValueError):  # a function of C without a signature
+        return []
+    if any(p.kind is p.VAR_KEYWORD for p in parameters):
+        return list(names)
+    positional = [p for p in parameters if p.kind in POSITIONAL]
+    taken = {p.name for p in positional[5:] if p.kind is not p.POSITIONAL_ONLY}
+    taken |= {p.name for p in parameters if p.kind is p.KEYWORD_ONLY}
+    return [name for name in names if name in taken]
 
 
 def check_places(

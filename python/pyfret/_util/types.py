@@ -12,6 +12,7 @@ __all__ = ["FrictionFunction", "Variable"]
 
 _Cells: TypeAlias = NDArray[np.float64]
 #: A friction law of x, y, p, slip and dissipated energy: arrays with a number for each cell.
-FrictionFunction: TypeAlias = Callable[[_Cells, _Cells, _Cells, _Cells, _Cells], ArrayLike]
+#: It may take fields of the exposed surfaces by keyword.
+FrictionFunction: TypeAlias = Callable[..., ArrayLike]
 #: A variable of a result: its dimensions, values and attributes.
 Variable: TypeAlias = tuple[tuple[str, ...], NDArray[Any], dict[str, Any]]

@@ -144,6 +144,17 @@ def line(R: float, W: float, slip: float, mu: float, half_width: float, n: int =
     )
 
 
+def bed_half_width(R: float, area: float, cycles: float, transport: float) -> float:
+    """Return the half-width [m] that the scar of a rigid cylinder does not exceed.
+
+    The worn `area` [m^2] is 2 b^3/(3 R) (1 + b b'/K), b' being the growth per cycle and K the
+    `transport` of debris [m^2]. Either term alone bounds b.
+    """
+    without_debris = (1.5 * R * area) ** (1 / 3)
+    slow_debris = (15 / 4 * R * transport * area * cycles) ** (1 / 5)
+    return min(without_debris, slow_debris)
+
+
 @quantities
 def fouvry2007(
     coating: str = "TiC", *, slip: float = 75e-6, mu: FrictionCoefficient = 0.45
@@ -216,7 +227,13 @@ def fouvry2017(test: str, *, debris_kept: float = KEPT, third_body: bool = False
     mean = 0.5 * (1 + swing) * W
     mu = energy / (4 * mean * slip * cycles * length)
     alpha = volume / energy
-    wide = max((1.5 * row["R_m"] * (1 - debris_kept) * volume / length) ** (1 / 3), 3e-4)
+    if third_body:
+        # The volume that all energy wears in air, and the scar that a rigid cylinder leaves with it.
+        most = 0.5 * sum(law.alpha for law in TI64_LAWS) * energy / length
+        wide = bed_half_width(row["R_m"], most, cycles, TI64_BED.kappa * slip**2)
+    else:
+        wide = (1.5 * row["R_m"] * (1 - debris_kept) * volume / length) ** (1 / 3)
+    wide = max(wide, 3e-4)
     hertz = row["p_H_Pa"] * 2 * row["R_m"] * 2 * (1 - 0.29**2) / 119e9
     scene = line(row["R_m"], W, slip, mu, 1.25 * max(wide, hertz))
     if swing < 1:

@@ -54,7 +54,7 @@ from pyfret.plot.stresses import (
 from pyfret.plot.studies import study_map
 from pyfret.plot.study_lines import study_line
 from pyfret.plot.style import style
-from pyfret.plot.wear import depth_map, wear_history, wear_loops, wear_profiles
+from pyfret.plot.wear import depth_map, third_body, wear_history, wear_loops, wear_profiles
 from pyfret.plot.yielding import plastic_zone, residual_stress
 
 __all__ = [
@@ -112,6 +112,7 @@ __all__ = [
     "surface_heights",
     "temperature",
     "temperature_map",
+    "third_body",
     "wear_history",
     "wear_loops",
     "wear_profiles",

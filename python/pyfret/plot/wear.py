@@ -70,6 +70,49 @@ def wear_profiles(
 
 
 @styled
+def third_body(
+    result: WearResult, *, block: int = -1, width: Width | None = None, ax: Axes | None = None
+) -> Axes:
+    """Scar, bed of debris and aerated zone on the line along the shear after a block, in um.
+
+    The depths of both bodies together point downwards. The bed fills the scar up to the growth of the
+    gap. The background is light blue where oxygen arrives in the contact.
+    """
+    ax = axes(ax)
+    d = result.along().isel(block=block)
+    along = str(d.worn2.dims[-1])
+    position = 1e3 * d[along].values
+    depth = 1e6 * np.asarray(d.worn1 + d.worn2)
+    bed = 1e6 * np.asarray(d.bed)
+    if "bed" not in result.table:
+        bed = result.debris_kept * depth
+    open_depth = depth - bed
+    aerated = np.where(np.asarray(d.p) > 0.0, np.asarray(d.aerated), 0.0)
+    step = position[1] - position[0]
+    for x, share in zip(position, aerated, strict=True):
+        if share > 0.0:
+            ax.axvspan(x - 0.5 * step, x + 0.5 * step, color="#9ecae1", alpha=0.5 * share, lw=0)
+    ax.plot(position, depth, label="worn off both bodies")
+    if bed.any():
+        colour = "#c49a6c"
+        ax.fill_between(position, open_depth, depth, color=colour, alpha=0.6, label="debris")
+        ax.plot(position, open_depth, color=colour, linestyle="--", label="growth of the gap")
+    if aerated.any():
+        ax.fill_between([], [], color="#9ecae1", alpha=0.5, label="oxygen arrives")
+    ax.invert_yaxis()
+    worn = np.flatnonzero(depth > 1e-3 * max(float(depth.max()), 1e-30))
+    if len(worn):
+        low, high = position[worn[[0, -1]]]
+        room = 0.125 * (high - low) + step
+        ax.set_xlim(low - room, high + room)
+    ax.set_xlabel(f"${along}$ [mm]")
+    ax.set_ylabel("depth [µm]")
+    cycles = f"{float(result.dataset.block_cycles[block]):,.0f} cycles".replace(",", " ")
+    ax.legend(title=cycles, fontsize="small")
+    return ax
+
+
+@styled
 def depth_map(
     result: WearResult,
     *,

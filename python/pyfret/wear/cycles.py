@@ -14,7 +14,7 @@ from pyfret.fatigue.ranges import Range
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["Cycles", "RangeOfCycles", "reached", "spent"]
+__all__ = ["Cycles", "RangeOfCycles", "changed", "reached", "spent"]
 
 
 def ended(cycles: float) -> str:
@@ -93,6 +93,32 @@ def spent(d: xr.Dataset, energy: float) -> Cycles:
         rate = float(d["dissipated_per_cycle"][-1])
         return Cycles.beyond_run(float(cycles[-1]), rate, amount)
     return Cycles(np.interp(energy, [max(start, 0.0), *ends], [before, *cycles]))
+
+
+def changed(d: xr.Dataset, mu: float, fresh: float) -> Cycles:
+    """Cycles at which the mean coefficient of friction has come to a value, from either side.
+
+    The mean of each jump belongs to its middle, with straight lines between. Before the first one
+    the coefficient is that of fresh surfaces; on surfaces that were worn before, that of the first
+    jump.
+    """
+    was_worn = any(depth > 0.0 for depth in d.attrs["depth_before"])
+    means, ends, lengths = (
+        np.asarray(d[name].values, float) for name in ("mu", "cycles", "length")
+    )
+    start = float(means[0]) if was_worn else fresh
+    # The last mean is kept up to the end.
+    cycles = np.r_[ends[0] - lengths[0], ends - 0.5 * lengths, ends[-1]]
+    values = np.r_[start, means, means[-1]]
+    side = math.copysign(1.0, mu - start)
+    beyond = np.flatnonzero(side * (values - mu) >= 0.0)
+    if mu == start:
+        return Cycles(cycles[0])
+    if beyond.size == 0:
+        return Cycles(math.nan, float(cycles[-1]))
+    n = int(beyond[0])
+    part = (mu - values[n - 1]) / (values[n] - values[n - 1])
+    return Cycles(cycles[n - 1] + part * (cycles[n] - cycles[n - 1]))
 
 
 def reached(d: xr.Dataset, name: str, target: float) -> Cycles:

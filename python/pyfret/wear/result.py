@@ -15,12 +15,12 @@ from pyfret._util.numbers import length, um
 from pyfret._util.tables import as_table
 from pyfret._util.text import shown
 from pyfret._util.toml import parse_toml
-from pyfret.quantities import Length, as_number, quantities
+from pyfret.quantities import FrictionCoefficient, Length, as_number, quantities
 from pyfret.run.loops import NO_FRICTION, frictionless, loops_of_corners
 from pyfret.saveable import Saveable
 from pyfret.scene.tables import table
 from pyfret.subsurface.line import Line, cut
-from pyfret.wear.cycles import Cycles, RangeOfCycles, reached, spent
+from pyfret.wear.cycles import Cycles, RangeOfCycles, changed, reached, spent
 
 if TYPE_CHECKING:
     from typing import Literal
@@ -132,6 +132,7 @@ class WearResult(Saveable, Labelled, Figured):
         part_of_coating: float | None = None,
         volume: float | None = None,
         energy: float | None = None,
+        mu: FrictionCoefficient | None = None,
         body_number: int = 2,
         coating: int = 0,
     ) -> Cycles:
@@ -154,6 +155,9 @@ class WearResult(Saveable, Labelled, Figured):
         energy : float
             Energy dissipated in the contact, of both bodies [J]. A solid lubricant such as MoS2
             fails at an energy per area of the contact.
+        mu : float
+            Mean coefficient of friction of the contact, variable ``mu``, reached from either side:
+            a solid lubricant fails as its friction rises.
         body_number : 1 or 2
             The body.
         coating : int
@@ -162,13 +166,14 @@ class WearResult(Saveable, Labelled, Figured):
         Raises
         ------
         ValueError
-            Not one of the four is given, or the body has no such coating.
+            Not one of the five is given, or the body has no such coating.
         """
         criteria = {
             "depth": as_number(depth),
             "part_of_coating": part_of_coating,
             "volume": volume,
             "energy": energy,
+            "mu": mu,
         }
         if sum(value is not None for value in criteria.values()) != 1:
             raise ValueError(f"{', '.join(criteria)}: give one of them")
@@ -182,6 +187,8 @@ class WearResult(Saveable, Labelled, Figured):
                 )
             above = sum(layer.thickness for layer in coatings[:coating])
             depth = above + part_of_coating * coatings[coating].thickness
+        if mu is not None:
+            return changed(self.dataset, float(mu), self.scene.friction.mu)
         if energy is not None:
             return spent(self.dataset, energy)
         name, target = ("volume", volume) if depth is None else ("depth", as_number(depth))
@@ -304,6 +311,8 @@ class WearResult(Saveable, Labelled, Figured):
             f"{with_error(last['dissipated_per_cycle'])} {energy} in the last cycle, "
             f"{self.of_loops}"
         )
+        if not self.scene.friction.is_constant:
+            lines.append(f"mean coefficient of friction: {with_error(last['mu'])} at the end")
         sticks = (
             NO_FRICTION
             if frictionless(self.scene)

@@ -16,6 +16,7 @@ from pyfret.quantities import (
     Length,
     Stiffness,
     WearCoefficient,
+    YieldStress,
     by_default,
     part,
     quantities,
@@ -122,6 +123,9 @@ class Wear(Replaceable):
         A bed of debris that spreads and leaves, in place of `debris_kept`.
     closed_below : float
         Gap below which the region between the bodies is closed to the air [m].
+    yield_stress : float, optional
+        Yield stress of the softer body [Pa]. A largest pressure above it is doubted: a starved core
+        that hardly wears would yield.
     first_branch : int, optional
         First branch of the path that belongs to the cycle, counted from 0 (default: the first in
         the last closed cycle); the cycle ends where it begins.
@@ -158,6 +162,7 @@ class Wear(Replaceable):
     air: Air | None = None
     bed: DebrisBed | None = None
     closed_below: InSI[Length] = by_default(1e-6)
+    yield_stress: InSI[YieldStress | None] = by_default(None)
     first_branch: int | None = None
     branch_counts: Sequence[float] | None = None
     cycling: Literal["auto", "march", "sliding"] = "auto"

@@ -21,14 +21,16 @@ pub(super) fn update(
 ) {
     let (geometry, state) = (setup.geometry, setup.state);
     let friction = &setup.problem.scene.friction;
-    if !friction.varies() && geometry.friction_map.is_empty() {
+    let exposed = &setup.problem.surface.friction;
+    if !friction.varies() && geometry.friction_map.is_empty() && exposed.is_empty() {
         return;
     }
     let last = setup.last();
     let origin = |n: usize| setup.roll.origin(geometry, setup.problem.plan.mirror, n);
     for (n, (mu, before)) in mu.iter_mut().zip(before).enumerate() {
         let level = friction.mu_of_cell(last.slips[n]);
-        let map = geometry.friction_map.get(n).copied().unwrap_or(1.0);
+        let map = geometry.friction_map.get(n).copied().unwrap_or(1.0)
+            * exposed.get(n).copied().unwrap_or(1.0);
         let at = |field: &[f64]| origin(n).map_or(0.0, |n| field[n]);
         let factors = friction.history.as_ref().map_or([1.0; 2], |history| {
             let so_far = match history.of {
@@ -75,7 +77,18 @@ pub(super) fn by_law(
             })
             .collect()
     };
+    let surface = &setup.problem.surface;
+    let (zeros, ones) = (vec![0.0; mu.len()], vec![1.0; mu.len()]);
+    let field = |field: &'_ [f64], fresh: &'_ [f64]| -> Vec<f64> {
+        if field.is_empty() { fresh } else { field }.to_vec()
+    };
+    let [worn1, worn2] = surface.worn.each_ref().map(|worn| field(worn, &zeros));
+    let [layer1, layer2] = surface.layer.each_ref().map(|layer| field(layer, &zeros));
     let cells = CellHistory {
+        worn: [&worn1, &worn2],
+        layer: [&layer1, &layer2],
+        bed: &field(&surface.bed, &zeros),
+        aerated: &field(&surface.aerated, &ones),
         x: &in_metres(&arms.x),
         y: &in_metres(&arms.y),
         p: solved.map_or(&setup.last().p, |solved| solved.p),

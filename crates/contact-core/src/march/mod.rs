@@ -47,6 +47,7 @@ pub use results::{Energy, Increment, Motion, Residuals, Spots, Status, Work, Yie
 pub use run::{BranchSummary, Observer, solve, summarise};
 pub use shear_errors::shear_errors;
 pub use state::State;
+pub use worn::ExposedSurface;
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -114,6 +115,7 @@ impl March {
                 approach: scene.reference_approach(),
                 hardness: scene.hardness(),
                 cycles: 0.0,
+                surface: ExposedSurface::default(),
                 share: 1.0,
                 remembers: false,
                 scene: solved,

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::State;
 use super::expected_radius::expected_radius;
+use super::worn::ExposedSurface;
 use crate::cells::{Arms, Drive};
 use crate::error::Error;
 use crate::plan::{Mirror, Plan};
@@ -26,6 +27,8 @@ pub(super) struct Problem {
     pub(super) hardness: f64,
     /// Cycles of wear done.
     pub(super) cycles: f64,
+    /// Surfaces that wear has left.
+    pub(super) surface: ExposedSurface,
     /// Part of the tolerance that the increment is solved to.
     pub(super) share: f64,
     /// Whether the end of an indentation is solved again from what its own stick zone remembers.

@@ -3,10 +3,31 @@
 use super::March;
 use super::State;
 
+/// The surfaces that wear has left, on the kept cells; empty fields for fresh surfaces.
+#[derive(Clone, Debug, Default)]
+pub struct ExposedSurface {
+    /// Factor of the friction coefficient.
+    pub friction: Vec<f64>,
+    /// Depth worn off body 1 and body 2 \[m\].
+    pub worn: [Vec<f64>; 2],
+    /// Layer of body 1 and body 2 that is exposed, from 0 for the outermost.
+    pub layer: [Vec<f64>; 2],
+    /// Debris per area \[m\].
+    pub bed: Vec<f64>,
+    /// Share of the cell that oxygen reaches.
+    pub aerated: Vec<f64>,
+}
+
 impl March {
     /// Sets the number of cycles done, of which friction may be a function.
     pub fn after_cycles(&mut self, cycles: f64) {
         self.problem.cycles = cycles;
+    }
+
+    /// Sets the surfaces that wear has left, of which friction may be a function. They stay until the
+    /// next call. For scenes without a window (`skip.contact_window = false`).
+    pub fn expose(&mut self, surface: ExposedSurface) {
+        self.problem.surface = surface;
     }
 
     /// Sets the march to a state of its path, on surfaces with the gap `h_init` on the kept cells

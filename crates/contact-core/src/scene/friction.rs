@@ -30,10 +30,40 @@ pub struct Friction {
     pub map: Option<SurfaceMap>,
     /// Factor of the coefficient as a function of the history of a cell.
     pub history: Option<FrictionHistory>,
+    /// Coefficient of each layer that wear exposes: the coatings of the coated body from the outermost
+    /// on, then its substrate. The first one is `mu`. Empty for one coefficient of all layers.
+    pub layers: Vec<f64>,
+    /// Coefficient where no oxygen arrives; `None` for the same. The aerated share s of a cell gives
+    /// `starved + (mu - starved) s`.
+    pub starved: Option<f64>,
+    /// Friction on a bed of debris.
+    pub bed: Option<BedFriction>,
     /// A user's law of the coefficient along x, in place of `mu`. Then `mu` is a typical value of
     /// the law, which scales tolerances and dimensionless results. No map, history or kinetic
     /// coefficient beside it.
     pub law: Option<UserFriction>,
+}
+
+/// Friction on a bed of debris, of the volume h per area:
+///
+/// ```text
+/// mu = mu_bed + (mu_0 - mu_bed) exp(-h/h_ref),
+/// ```
+///
+/// mu_0 being the coefficient of the surface without debris.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BedFriction {
+    /// Coefficient mu_bed of a thick bed.
+    pub mu: f64,
+    /// Thickness h_ref \[m\].
+    pub thickness: f64,
+}
+
+impl BedFriction {
+    /// The coefficient on the bed h \[m\], from that of the surface without debris.
+    pub fn coefficient(&self, mu_0: f64, h: f64) -> f64 {
+        self.mu + (mu_0 - self.mu) * (-h / self.thickness).exp()
+    }
 }
 
 /// A piecewise linear function of the history of a cell, level beyond its ends.
@@ -67,6 +97,9 @@ impl Friction {
             kinetic: None,
             map: None,
             history: None,
+            layers: Vec::new(),
+            starved: None,
+            bed: None,
             law: None,
         }
     }
@@ -98,13 +131,20 @@ impl Friction {
             kinetic,
             map,
             history,
+            layers,
+            starved,
+            bed,
             law,
         } = self;
+        let layers = (!layers.is_empty()).then_some(&layers[..]);
         let laws = [
             mu_y.map(Law::Direction),
             kinetic.map(Law::Kinetic),
             map.as_ref().map(Law::Place),
             history.as_ref().map(Law::History),
+            layers.map(Law::Layers),
+            starved.map(Law::Starved),
+            bed.as_ref().map(Law::Bed),
             law.as_ref().map(|_| Law::Own),
         ];
         laws.into_iter().flatten()
@@ -116,9 +156,14 @@ impl Friction {
     }
 
     /// Returns the coefficients beside mu by reference, by their keys in a scene file.
-    pub(super) fn coefficients_mut(&mut self) -> [(&'static str, &mut Option<f64>); 2] {
-        let Self { mu_y, kinetic, .. } = self;
-        [("mu_y", mu_y), ("kinetic", kinetic)]
+    pub(super) fn coefficients_mut(&mut self) -> [(&'static str, &mut Option<f64>); 3] {
+        let Self {
+            mu_y,
+            kinetic,
+            starved,
+            ..
+        } = self;
+        [("mu_y", mu_y), ("kinetic", kinetic), ("starved", starved)]
     }
 
     /// Whether the coefficient depends on this.
@@ -132,9 +177,14 @@ impl Friction {
             .all(|law| law.depends_on().iter().all(|on| allowed.contains(on)))
     }
 
-    /// Whether the coefficient of a cell changes along the path.
+    /// Whether the coefficient of a cell changes along the path. What wear exposes changes between
+    /// cycles only.
     pub(crate) fn varies(&self) -> bool {
-        !self.depends_only_on(&[Dependence::Direction, Dependence::Place])
+        !self.depends_only_on(&[
+            Dependence::Direction,
+            Dependence::Place,
+            Dependence::Surface,
+        ])
     }
 
     /// The coefficient along x, before factors of place and history, of a cell that slipped in the
@@ -170,11 +220,33 @@ impl Friction {
             Dependence::Cells,
         ];
         let without_map_and_history = self.map.is_none() && self.history.is_none();
+        if let Some(first) = self.layers.first().filter(|first| **first != self.mu) {
+            let allowed = format!("left out beside friction.layers, or the first of them, {first}");
+            return Err(Error::invalid("friction.mu", self.mu, allowed));
+        }
         if self.law.is_some() && !(without_map_and_history && self.depends_only_on(&compatible)) {
-            let allowed = "without map, history and kinetic: the law knows place and history";
+            let allowed =
+                "without map, history, kinetic, layers, starved and bed: the law takes all of them";
             return Err(Error::invalid("friction.law", "a law of your own", allowed));
         }
         Ok(())
+    }
+
+    /// Fails unless the layers are those of the one coated body of `counts` layers each.
+    pub(super) fn check_layers(&self, counts: [usize; 2]) -> Result<(), Error> {
+        let given = self.layers.len();
+        let allowed = match (given, counts) {
+            (0, _) => return Ok(()),
+            (_, [1, 1]) => "left out: no body has a coating".to_owned(),
+            (_, [1, layers] | [layers, 1]) if given == layers => return Ok(()),
+            (_, [1, layers] | [layers, 1]) => format!(
+                "{layers} coefficients, one for each coating and one for the substrate of the coated body"
+            ),
+            _ => "left out where both bodies are coated: a law of your own takes layer1 and layer2"
+                .to_owned(),
+        };
+        let value = format!("{given} coefficients");
+        Err(Error::invalid("friction.layers", value, allowed))
     }
 
     /// Fails at coefficients or factors that are so small or so large that nothing could be computed
@@ -196,6 +268,12 @@ pub(crate) enum Law<'a> {
     Place(&'a SurfaceMap),
     /// A factor of the history.
     History(&'a FrictionHistory),
+    /// A coefficient of each layer.
+    Layers(&'a [f64]),
+    /// Another coefficient without oxygen.
+    Starved(f64),
+    /// Another coefficient on a bed of debris.
+    Bed(&'a BedFriction),
     /// A user's function.
     Own,
 }
@@ -217,6 +295,8 @@ pub enum Dependence {
     Cycles,
     /// Slip or energy of a cell so far.
     Cells,
+    /// The surface that wear exposes: its layer, the oxygen and the debris on it.
+    Surface,
 }
 
 impl Law<'_> {
@@ -231,6 +311,7 @@ impl Law<'_> {
                 History::Cycles => &[Dependence::Cycles],
                 History::Slip | History::Dissipated => &[Dependence::Cells],
             },
+            Self::Layers(_) | Self::Starved(_) | Self::Bed(_) => &[Dependence::Surface],
             Self::Own => &[Dependence::Place, Dependence::Pressure, Dependence::Cells],
         }
     }
@@ -240,7 +321,8 @@ impl Law<'_> {
         match self {
             Self::Direction(mu_y) => Some(("mu_y", *mu_y)),
             Self::Kinetic(kinetic) => Some(("kinetic", *kinetic)),
-            Self::Place(_) | Self::History(_) | Self::Own => None,
+            Self::Starved(starved) => Some(("starved", *starved)),
+            Self::Place(_) | Self::History(_) | Self::Layers(_) | Self::Bed(_) | Self::Own => None,
         }
     }
 
@@ -250,7 +332,13 @@ impl Law<'_> {
         match self {
             Self::Own => Some("friction is a law of the user's own"),
             Self::Place(map) if !is_even(map) => Some("the friction is not mirror-symmetric in y"),
-            Self::Place(_) | Self::Direction(_) | Self::Kinetic(_) | Self::History(_) => None,
+            Self::Place(_)
+            | Self::Direction(_)
+            | Self::Kinetic(_)
+            | Self::History(_)
+            | Self::Layers(_)
+            | Self::Starved(_)
+            | Self::Bed(_) => None,
         }
     }
 
@@ -266,6 +354,9 @@ impl Law<'_> {
                 History::Slip => ("changes with the way slipped", None),
                 History::Dissipated => ("changes with the energy dissipated", None),
             },
+            Self::Layers(_) => ("follows the layer that wear exposes", None),
+            Self::Starved(mu) => ("mu without oxygen", Some(*mu)),
+            Self::Bed(bed) => ("mu on a thick bed of debris", Some(bed.mu)),
             Self::Own => ("a function of your own", None),
         }
     }
@@ -291,11 +382,32 @@ impl Law<'_> {
                 }
             }
             Self::History(history) => history.check(),
+            Self::Layers(layers) => match layers.iter().find(|mu| !positive(**mu)) {
+                Some(bad) => {
+                    let allowed = "finite coefficients above 0, one for each layer";
+                    Err(Error::invalid("friction.layers", bad, allowed))
+                }
+                None => Ok(()),
+            },
+            Self::Bed(bed) => {
+                let positive_number = |key: &str, value: f64, allowed: &str| {
+                    if positive(value) {
+                        return Ok(());
+                    }
+                    Err(Error::invalid(
+                        format!("friction.bed.{key}"),
+                        value,
+                        allowed,
+                    ))
+                };
+                positive_number("mu", bed.mu, "a finite coefficient above 0")?;
+                positive_number("thickness", bed.thickness, "a finite number above 0 in m")
+            }
             Self::Own if !positive(mu) => {
                 let allowed = "a finite number > 0: about what the law gives";
                 Err(Error::invalid("friction.mu", mu, allowed))
             }
-            Self::Direction(_) | Self::Kinetic(_) | Self::Own => Ok(()),
+            Self::Direction(_) | Self::Kinetic(_) | Self::Starved(_) | Self::Own => Ok(()),
         }
     }
 
@@ -309,7 +421,12 @@ impl Law<'_> {
             return Err(Error::invalid(format!("friction.{key}"), value, allowed));
         }
         let (key, factors): (_, Vec<f64>) = match self {
-            Self::Direction(_) | Self::Kinetic(_) | Self::Own => return Ok(()),
+            Self::Direction(_) | Self::Kinetic(_) | Self::Starved(_) | Self::Own => return Ok(()),
+            Self::Layers(layers) => (
+                "friction.layers",
+                layers.iter().map(|of_layer| of_layer / mu).collect(),
+            ),
+            Self::Bed(bed) => ("friction.bed.mu", vec![bed.mu / mu]),
             Self::Place(map) => ("friction.map", map.values.iter().copied().collect()),
             Self::History(FrictionHistory { table, .. }) => {
                 let factors = table.iter().map(|(_, factor)| *factor);
@@ -391,6 +508,21 @@ mod tests {
                 ..plain.clone()
             },
         ];
+        laws.push(Friction {
+            layers: vec![0.3, 0.6],
+            ..plain.clone()
+        });
+        laws.push(Friction {
+            starved: Some(0.8),
+            ..plain.clone()
+        });
+        laws.push(Friction {
+            bed: Some(super::BedFriction {
+                mu: 0.5,
+                thickness: 1e-6,
+            }),
+            ..plain.clone()
+        });
         for variable in [
             History::Increment,
             History::Cycles,

@@ -18,6 +18,14 @@ pub struct CellHistory<'a> {
     pub slip: &'a [f64],
     /// Energy dissipated per area \[J/m^2\].
     pub dissipated: &'a [f64],
+    /// Depth worn off body 1 and body 2 \[m\]; zero but in runs of wear.
+    pub worn: [&'a [f64]; 2],
+    /// Layer of body 1 and body 2 that wear has exposed, from 0 for the outermost.
+    pub layer: [&'a [f64]; 2],
+    /// Debris per area \[m\].
+    pub bed: &'a [f64],
+    /// Share of the cell that oxygen reaches; 1 without a model of the air.
+    pub aerated: &'a [f64],
 }
 
 /// A friction coefficient as a function of position, pressure and history.

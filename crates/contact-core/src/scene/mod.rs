@@ -36,7 +36,7 @@ pub use case::{Fault, Section, convert_to_si, quantity, read_scene_and, read_tex
 pub use doubts::CELLS_PER_FILM;
 pub use files::{Reach, read as read_file};
 pub use friction::Dependence;
-pub use friction::{Friction, FrictionHistory, History};
+pub use friction::{BedFriction, Friction, FrictionHistory, History};
 pub use friction_law::missing_law_error;
 pub use friction_law::{CellHistory, FrictionLaw, UserFriction};
 pub use grid::Grid;
@@ -121,6 +121,8 @@ impl Scene {
         self.check_magnitudes()?;
         self.check_surfaces_fit()?;
         self.friction.check(Some(&self.grid))?;
+        self.friction
+            .check_layers([&self.body1, &self.body2].map(|body| body.coatings.len() + 1))?;
         let by_frequency = matches!(
             self.settings.kernel.method,
             KernelMethod::FrequencyDomain { .. }

@@ -6,20 +6,33 @@ use pyo3::exceptions::PyTypeError;
 
 use crate::error::InvalidSceneError;
 use crate::prelude::*;
+use crate::python::from_python;
 
 /// The word for a law of which only that it exists is known.
 pub(crate) const OWN: &str = "own";
 
-/// A callable on arrays.
+/// Fields of the exposed surfaces that a function gets if its signature names them.
+const SURFACE: [&str; 6] = ["worn1", "worn2", "layer1", "layer2", "bed", "aerated"];
+
+/// A callable on arrays, and the fields of the exposed surfaces that it takes.
 #[derive(Debug)]
-struct Own(Py<PyAny>);
+struct Own(Py<PyAny>, Vec<&'static str>);
 
 impl core::FrictionLaw for Own {
     fn coefficients(&self, cells: &CellHistory<'_>, mu: &mut [f64]) -> Result<(), LawError> {
         let call = |py: Python<'_>| -> PyResult<()> {
             let fields = [cells.x, cells.y, cells.p, cells.slip, cells.dissipated];
             let [x, y, p, slip, dissipated] = fields.map(|field| field.to_pyarray(py));
-            let answer = self.0.bind(py).call1((x, y, p, slip, dissipated))?;
+            let exposed = PyDict::new(py);
+            let ([worn1, worn2], [layer1, layer2]) = (cells.worn, cells.layer);
+            let surface = [worn1, worn2, layer1, layer2, cells.bed, cells.aerated];
+            for (name, field) in SURFACE.iter().zip(surface) {
+                if self.1.contains(name) {
+                    exposed.set_item(name, field.to_pyarray(py))?;
+                }
+            }
+            let law = self.0.bind(py);
+            let answer = law.call((x, y, p, slip, dissipated), Some(&exposed))?;
             let array: Array<'_, IxDyn> = answer.extract().map_err(|why: PyErr| {
                 let why = why.value(py);
                 if why.is_instance_of::<PyValueError>() {
@@ -71,7 +84,15 @@ pub(crate) fn own_law(given: &Bound<'_, PyAny>) -> PyResult<core::UserFriction> 
         return Ok(core::UserFriction::unavailable());
     }
     if given.is_callable() {
-        return Ok(core::UserFriction::new(Own(given.clone().unbind())));
+        let names = from_python(given.py(), "accepted_keywords")?;
+        let names: Vec<String> = names.call1((given, SURFACE.to_vec()))?.extract()?;
+        let taken = SURFACE
+            .into_iter()
+            .filter(|name| names.iter().any(|n| n == name));
+        return Ok(core::UserFriction::new(Own(
+            given.clone().unbind(),
+            taken.collect(),
+        )));
     }
     Err(crate::error::must_be(
         given,

@@ -6,7 +6,7 @@ use super::fault::Fault;
 use super::section::Section;
 use super::shape::{MAP, map_text, surface_map};
 use crate::scene::files::Files;
-use crate::scene::{Friction, FrictionHistory, History, UserFriction};
+use crate::scene::{BedFriction, Friction, FrictionHistory, History, UserFriction};
 
 /// The word for a user's law.
 const OWN: &str = "own";
@@ -22,9 +22,50 @@ const HISTORIES: [(&str, History); 4] = [
 pub(super) fn friction(root: &Section<'_>, files: &Files<'_>) -> Result<Friction, Fault> {
     let mut friction = Friction::coulomb(f64::INFINITY);
     let coefficients = friction.coefficients_mut().map(|(key, _)| key);
-    let keys = [&["mu"], &coefficients[..], &["map", "history", "law"]].concat();
+    let keys = [
+        &["mu"],
+        &coefficients[..],
+        &["map", "history", "layers", "bed", "law"],
+    ]
+    .concat();
     let section = root.require_section("friction", &keys)?;
     let expected = "a number >= 0, or \"stick\" for no slip";
+    let layers = section.numbers("layers", "a list of coefficients, one for each layer")?;
+    let mu = match section.get("mu") {
+        None if !layers.is_empty() => layers[0],
+        _ => mu_of(&section, expected)?,
+    };
+    for (key, coefficient) in friction.coefficients_mut() {
+        let present = section.get(key);
+        let coefficient_if_present = present.map(|_| section.number(key, "a positive number", &[]));
+        *coefficient = coefficient_if_present.transpose()?;
+    }
+    // Its numbers have no unit.
+    let map = section.section("map", &MAP[..MAP.len() - 1])?;
+    Ok(Friction {
+        mu,
+        map: map.map(|map| surface_map(&map, files)).transpose()?,
+        history: friction_history(&section)?,
+        layers,
+        bed: bed_friction(&section)?,
+        law: user_law(&section)?,
+        ..friction
+    })
+}
+
+/// Reads the friction on a bed of debris.
+fn bed_friction(friction: &Section<'_>) -> Result<Option<BedFriction>, Fault> {
+    let Some(section) = friction.section("bed", &["mu", "thickness"])? else {
+        return Ok(None);
+    };
+    Ok(Some(BedFriction {
+        mu: section.number("mu", "a coefficient above 0", &[])?,
+        thickness: section.number("thickness", "a number above 0 in m", &[])?,
+    }))
+}
+
+/// Reads the coefficient, or the word for no slip.
+fn mu_of(section: &Section<'_>, expected: &str) -> Result<f64, Fault> {
     let mu = match section.require("mu", expected)? {
         Value::String(word) if word == "stick" => f64::INFINITY,
         Value::String(_) => {
@@ -44,20 +85,7 @@ pub(super) fn friction(root: &Section<'_>, files: &Files<'_>) -> Result<Friction
             finite,
         ));
     }
-    for (key, coefficient) in friction.coefficients_mut() {
-        let present = section.get(key);
-        let coefficient_if_present = present.map(|_| section.number(key, "a positive number", &[]));
-        *coefficient = coefficient_if_present.transpose()?;
-    }
-    // Its numbers have no unit.
-    let map = section.section("map", &MAP[..MAP.len() - 1])?;
-    Ok(Friction {
-        mu,
-        map: map.map(|map| surface_map(&map, files)).transpose()?,
-        history: friction_history(&section)?,
-        law: user_law(&section)?,
-        ..friction
-    })
+    Ok(mu)
 }
 
 /// Reads the word for a user's law, which no file can hold.
@@ -93,6 +121,13 @@ pub(super) fn to_text(friction: &Friction) -> String {
     }];
     let coefficients = friction.coefficients();
     lines.extend(coefficients.map(|(key, mu)| format!("{key} = {mu:?}")));
+    if !friction.layers.is_empty() {
+        lines.push(format!("layers = {:?}", friction.layers));
+    }
+    let bed = friction.bed.as_ref();
+    lines.extend(bed.map(|BedFriction { mu, thickness }| {
+        format!("bed = {{ mu = {mu:?}, thickness = {thickness:?} }}")
+    }));
     lines.extend(friction.law.as_ref().map(|_| format!("law = \"{OWN}\"")));
     let map = friction.map.as_ref();
     lines.extend(map.map(|map| format!("map = {{ {} }}", map_text(map))));

@@ -131,6 +131,17 @@ impl<'a> Section<'a> {
         pairs.collect()
     }
 
+    /// A list of numbers; empty where it is missing.
+    pub fn numbers(&self, name: &str, what: &str) -> Result<Vec<f64>, Fault> {
+        let (key, value) = (self.path(name), self.get(name));
+        let Some(value) = value else {
+            return Ok(Vec::new());
+        };
+        let list = value.as_array().filter(|list| !list.is_empty());
+        let list = list.ok_or_else(|| Fault::value(&key, value, what))?;
+        list.iter().map(|v| measure::number(&key, v, &[])).collect()
+    }
+
     /// A number that must be there, in one of its measures; `what` describes it in the error.
     pub fn number(&self, name: &str, what: &str, measures: &[Measure]) -> Result<f64, Fault> {
         measure::number(&self.path(name), self.require(name, what)?, measures)
