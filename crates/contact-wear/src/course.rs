@@ -46,7 +46,7 @@ pub(super) struct Coefficients {
     pub(super) mu: Vec<f64>,
 }
 
-/// Factor of the dissipated energy of a cell while a layer is bare, over that of the cycle.
+/// Factor of the dissipated energy of a cell while a layer is bare, over the energy of the cycle.
 pub(super) type LayerFactor<'a> = dyn Fn(usize, usize) -> f64 + 'a;
 
 /// Computes the coefficients of a body in n cycles that begin at the state in `cycle`. `coatings`

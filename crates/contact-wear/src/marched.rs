@@ -203,7 +203,7 @@ impl Marched {
     }
 
     /// Exposes worn surfaces to the friction of the next cycle; returns its coefficients, empty where
-    /// they are those of a fresh surface.
+    /// the surface is fresh.
     fn expose(&mut self, worn: &Worn) -> Vec<f64> {
         if self.surface.is_none() && !self.has_law {
             return Vec::new();
@@ -497,8 +497,8 @@ impl Marched {
             slips.then(|| cycled.dissipated[c] / (cycled.pressure_times_slip[c] * of_surface))
         });
         if let Some(surface) = &self.surface {
-            // The march has solved the factors of place and history; the exposed surface is that of
-            // the jump.
+            // The march has solved the factors of place and history; the exposed surface belongs
+            // to the jump.
             let depth = &worn.depth[surface.body];
             let of_cells = surface.of_cells(depth, &fields.aerated, &fields.bed);
             mu.iter_mut().zip(of_cells).for_each(|(mu, of)| *mu *= of);

@@ -453,8 +453,8 @@ impl WearRun {
         let exceeded = self.wear.yield_stress.filter(|limit| p_max > *limit);
         let pressure = exceeded.map(|limit| {
             format!(
-                "the largest pressure, {:.0} MPa, is above wear.yield_stress, {:.0} MPa: a core that hardly wears would \
-                 yield and spread its load, so that it is wider and less loaded than computed",
+                "the largest pressure, {:.0} MPa, is above wear.yield_stress, {:.0} MPa. A core that hardly wears would \
+                 yield: it would be wider and less loaded",
                 1e-6 * p_max,
                 1e-6 * limit
             )

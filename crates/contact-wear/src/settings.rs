@@ -7,7 +7,6 @@ use super::air::{Air, check_positive};
 use super::debris_bed::DebrisBed;
 use super::law::BodyWear;
 use super::stroke::stroke;
-use super::surface_friction::SurfaceFriction;
 
 /// Most cycles of a run.
 const MOST_CYCLES: f64 = 1e15;
@@ -199,7 +198,7 @@ impl Wear {
             let allowed = "\"cycles\", \"slip\" or \"dissipated\" over cycles of wear";
             return Err(Error::invalid("friction.history.of", "increment", allowed));
         }
-        SurfaceFriction::check(scene, self)?;
+        self.check_friction(scene)?;
         self.jumps.check()
     }
 
@@ -331,6 +330,20 @@ impl Wear {
                 self.debris_kept,
                 allowed,
             ));
+        }
+        Ok(())
+    }
+
+    /// Fails if the run lacks the third body that friction depends on.
+    fn check_friction(&self, scene: &Scene) -> Result<(), Error> {
+        let friction = &scene.friction;
+        if let (Some(mu), None) = (friction.starved, &self.air) {
+            let allowed = "given beside wear.air, which computes where oxygen arrives";
+            return Err(Error::invalid("friction.starved", mu, allowed));
+        }
+        if let (Some(bed), None) = (&friction.bed, &self.bed) {
+            let allowed = "given beside wear.bed, which computes the debris";
+            return Err(Error::invalid("friction.bed.mu", bed.mu, allowed));
         }
         Ok(())
     }

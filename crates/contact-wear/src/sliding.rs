@@ -560,7 +560,7 @@ impl Sliding {
             }
     }
 
-    /// Factor of the force over that of the stroke, whose coefficient is the one before any cycle.
+    /// Factor of the force in the corners of the stroke, whose coefficient is the one before any cycle.
     pub(crate) fn force_factor(&self) -> f64 {
         self.mean_mu() / self.mu
     }

@@ -6,11 +6,10 @@
 //!
 //! s is the aerated share, h the debris per area. The coefficient is constant within a cycle.
 
-use contact_core::Error;
-use contact_core::scene::{BedFriction, Dependence, Scene};
+use contact_core::scene::{BedFriction, Body, Dependence, Scene};
 
 use super::law::layer_at;
-use super::settings::{Wear, thicknesses};
+use super::settings::thicknesses;
 
 /// Friction that depends on what wear exposes.
 #[derive(Clone, Debug)]
@@ -30,7 +29,7 @@ impl SurfaceFriction {
     pub(crate) fn new(scene: &Scene) -> Option<Self> {
         let friction = &scene.friction;
         friction.depends_on(Dependence::Surface).then(|| {
-            let coated = |body: &contact_core::scene::Body| !body.coatings.is_empty();
+            let coated = |body: &Body| !body.coatings.is_empty();
             let body = usize::from(!coated(&scene.body1));
             let layers = if friction.layers.is_empty() {
                 vec![friction.mu]
@@ -45,20 +44,6 @@ impl SurfaceFriction {
                 bed: friction.bed,
             }
         })
-    }
-
-    /// Fails if the run lacks what friction depends on.
-    pub(crate) fn check(scene: &Scene, wear: &Wear) -> Result<(), Error> {
-        let friction = &scene.friction;
-        if let (Some(mu), None) = (friction.starved, &wear.air) {
-            let allowed = "given beside wear.air, which computes where oxygen arrives";
-            return Err(Error::invalid("friction.starved", mu, allowed));
-        }
-        if let (Some(bed), None) = (&friction.bed, &wear.bed) {
-            let allowed = "given beside wear.bed, which computes the debris";
-            return Err(Error::invalid("friction.bed.mu", bed.mu, allowed));
-        }
-        Ok(())
     }
 
     /// Whether the coefficient depends on the layer.
@@ -81,7 +66,7 @@ impl SurfaceFriction {
         self.layers[layer.min(self.layers.len() - 1)]
     }
 
-    /// The coefficient of a cell c, from that of its layer; without oxygen and debris where the
+    /// The coefficient of a cell c, from the one of its layer; without oxygen and debris where the
     /// fields are empty.
     pub(crate) fn combine(&self, of_layer: f64, c: usize, aerated: &[f64], bed: &[f64]) -> f64 {
         let mut mu = of_layer;

@@ -11,7 +11,13 @@ from pyfret._util.names import meant
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
-__all__ = ["accepted_keywords", "check_places", "nearest_names", "refuse_unknown", "unknown_keyword"]
+__all__ = [
+    "accepted_keywords",
+    "check_places",
+    "nearest_names",
+    "refuse_unknown",
+    "unknown_keyword",
+]
 
 #: Parameters that are given by position.
 POSITIONAL = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)

@@ -34,6 +34,7 @@ NAMES = (
     "arnaud2021_alpha",
     "arnaud2021_profiles",
     "baydoun2019",
+    "baydoun2020_distance",
     "fouvry2007_coatings",
     "fouvry2007_mos2_lives",
     "fouvry2007_tic_depth",
@@ -54,6 +55,15 @@ TI64_AIR = wearing.Air(distance=1.753e-3, power_density=24e3, power_exponent=0.9
 #: Bed of debris of Ti-6Al-4V: kappa fitted on the U-shaped profile of Arnaud and others 2021. It
 #: takes up 0.75 of the volume that is worn without oxygen.
 TI64_BED = wearing.DebrisBed(kappa=4.444e-3, starved_yield=0.75)
+#: Oxygen between flats of 34NiCrMo16: 1.51 mm (f/1 Hz)^-0.22 (p/100 MPa)^-0.32 (S. Baydoun, S.
+#: Fouvry, Tribol. Int. 147 (2020) 106266, arXiv 2101.12014).
+STEEL_AIR = wearing.Air(
+    distance=1.51e-3,
+    pressure=1e8,
+    pressure_exponent=0.64,
+    frequency=1.0,
+    frequency_exponent=0.44,
+)
 #: Coefficients of cylinder and plane, of half of the energy each, in air and without oxygen
 #: (Arnaud and others 2021).
 TI64_LAWS = (
@@ -152,7 +162,7 @@ def bed_half_width(R: float, area: float, cycles: float, transport: float) -> fl
     """
     without_debris = (1.5 * R * area) ** (1 / 3)
     slow_debris = (15 / 4 * R * transport * area * cycles) ** (1 / 5)
-    return min(without_debris, slow_debris)
+    return float(min(without_debris, slow_debris))
 
 
 @quantities
@@ -228,9 +238,9 @@ def fouvry2017(test: str, *, debris_kept: float = KEPT, third_body: bool = False
     mu = energy / (4 * mean * slip * cycles * length)
     alpha = volume / energy
     if third_body:
-        # The volume that all energy wears in air, and the scar that a rigid cylinder leaves with it.
-        most = 0.5 * sum(law.alpha for law in TI64_LAWS) * energy / length
-        wide = bed_half_width(row["R_m"], most, cycles, TI64_BED.kappa * slip**2)
+        # The volume that all energy wears in air, and the scar of a rigid cylinder with it.
+        area = 0.5 * sum(law.alpha for law in TI64_LAWS) * energy / length
+        wide = bed_half_width(row["R_m"], area, cycles, TI64_BED.kappa * slip**2)
     else:
         wide = (1.5 * row["R_m"] * (1 - debris_kept) * volume / length) ** (1 / 3)
     wide = max(wide, 3e-4)
@@ -301,10 +311,18 @@ def arnaud2021(*, debris_kept: float = KEPT, bed: bool = False) -> Experiment:
 
 
 @quantities
-def baydoun2019(n: int) -> Experiment:
+def baydoun2019(n: int, *, third_body: bool = False) -> Experiment:
     """Square steel flat on flat, 5 x 5 mm: the n-th row of S. Baydoun and others, from 0.
 
     Friction mu_e = 0.70, alpha = 4.383e-14 m^3/J.
+
+    Parameters
+    ----------
+    n : int
+        The row of the table ``baydoun2019``.
+    third_body : bool
+        Whether oxygen is computed, with the distance of Baydoun and Fouvry 2020 (table
+        ``baydoun2020_distance``). Without oxygen alpha is then zero: no number is published.
     """
     rows = table("baydoun2019")
     if not 0 <= n < len(rows):
@@ -318,7 +336,8 @@ def baydoun2019(n: int) -> Experiment:
         grid=Grid.centred(width=2.4 * side, n=72),
         path=to_and_fro(row["pressure_Pa"] * side**2, slip),
     )
-    law = wearing.DissipatedEnergy(4.383e-14)
+    law = wearing.DissipatedEnergy(4.383e-14, starved=0.0 if third_body else None)
+    air = {"air": STEEL_AIR} if third_body else {}
     return Experiment(
         "S. Baydoun, S. Fouvry, S. Descartes, P. Arnaud, Wear 426-427 (2019) 676-693, "
         "doi:10.1016/j.wear.2018.12.022",
@@ -329,6 +348,7 @@ def baydoun2019(n: int) -> Experiment:
             "cycling": "sliding",
             "body2": law,
             "frequency": row["frequency_Hz"],
+            **air,
         },
         (
             "the punch of the model is round, of the same area",

@@ -75,8 +75,8 @@ def third_body(
 ) -> Axes:
     """Scar, bed of debris and aerated zone on the line along the shear after a block, in um.
 
-    The depths of both bodies together point downwards. The bed fills the scar up to the growth of the
-    gap. The background is light blue where oxygen arrives in the contact.
+    The depths of both bodies together point downwards. The bed fills the scar up to the growth of
+    the gap. The background is light blue where oxygen arrives in the contact.
     """
     ax = axes(ax)
     d = result.along().isel(block=block)

@@ -99,8 +99,7 @@ def changed(d: xr.Dataset, mu: float, fresh: float) -> Cycles:
     """Cycles at which the mean coefficient of friction has come to a value, from either side.
 
     The mean of each jump belongs to its middle, with straight lines between. Before the first one
-    the coefficient is that of fresh surfaces; on surfaces that were worn before, that of the first
-    jump.
+    the coefficient is `fresh`; on surfaces that were worn before, the mean of the first jump.
     """
     was_worn = any(depth > 0.0 for depth in d.attrs["depth_before"])
     means, ends, lengths = (

@@ -11,6 +11,7 @@ mod direction;
 mod domain;
 mod entry;
 mod expected_radius;
+mod exposed_surface;
 mod fields;
 mod first_pressure;
 mod friction;
@@ -39,6 +40,7 @@ mod worn;
 mod yielding;
 mod yields;
 
+pub use exposed_surface::ExposedSurface;
 pub use fields::{Fields, Tractions};
 pub(crate) use growing::is_remembered;
 pub(crate) use problem::TANGENTIAL_SHARE;
@@ -47,7 +49,6 @@ pub use results::{Energy, Increment, Motion, Residuals, Spots, Status, Work, Yie
 pub use run::{BranchSummary, Observer, solve, summarise};
 pub use shear_errors::shear_errors;
 pub use state::State;
-pub use worn::ExposedSurface;
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;

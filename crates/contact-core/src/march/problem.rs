@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::State;
 use super::expected_radius::expected_radius;
-use super::worn::ExposedSurface;
+use super::exposed_surface::ExposedSurface;
 use crate::cells::{Arms, Drive};
 use crate::error::Error;
 use crate::plan::{Mirror, Plan};

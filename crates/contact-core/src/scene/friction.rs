@@ -60,7 +60,7 @@ pub struct BedFriction {
 }
 
 impl BedFriction {
-    /// The coefficient on the bed h \[m\], from that of the surface without debris.
+    /// The coefficient on the bed h \[m\], from the one of the surface without debris.
     pub fn coefficient(&self, mu_0: f64, h: f64) -> f64 {
         self.mu + (mu_0 - self.mu) * (-h / self.thickness).exp()
     }
@@ -232,20 +232,20 @@ impl Friction {
         Ok(())
     }
 
-    /// Fails unless the layers are those of the one coated body of `counts` layers each.
+    /// Fails unless the layers belong to the one coated body of `counts` layers each.
     pub(super) fn check_layers(&self, counts: [usize; 2]) -> Result<(), Error> {
-        let given = self.layers.len();
-        let allowed = match (given, counts) {
+        let number = self.layers.len();
+        let allowed = match (number, counts) {
             (0, _) => return Ok(()),
             (_, [1, 1]) => "left out: no body has a coating".to_owned(),
-            (_, [1, layers] | [layers, 1]) if given == layers => return Ok(()),
+            (_, [1, layers] | [layers, 1]) if number == layers => return Ok(()),
             (_, [1, layers] | [layers, 1]) => format!(
                 "{layers} coefficients, one for each coating and one for the substrate of the coated body"
             ),
             _ => "left out where both bodies are coated: a law of your own takes layer1 and layer2"
                 .to_owned(),
         };
-        let value = format!("{given} coefficients");
+        let value = format!("{number} coefficients");
         Err(Error::invalid("friction.layers", value, allowed))
     }
 

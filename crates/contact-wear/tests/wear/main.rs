@@ -19,4 +19,3 @@ mod resumed;
 #[path = "../../../contact-core/tests/splitmix/mod.rs"]
 mod splitmix;
 mod third_body;
-mod third_body_rows;

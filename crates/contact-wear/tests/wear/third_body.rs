@@ -12,18 +12,18 @@ use serde_json::Value;
 
 use crate::bench::{cylinder, run, scene, to_and_fro, wear};
 
-pub(crate) fn row(name: &str) -> Value {
+fn row(name: &str) -> Value {
     let text = include_str!("../../../debris/tests/data/rows.json");
     let rows: Value = serde_json::from_str(text).unwrap();
     rows[name].clone()
 }
 
-pub(crate) fn number(row: &Value, part: &str, key: &str) -> f64 {
+fn number(row: &Value, part: &str, key: &str) -> f64 {
     row[part][key].as_f64().unwrap_or_else(|| panic!("{key}"))
 }
 
 /// Worn volume is bed and ejected debris together, at the end of every jump.
-pub(crate) fn assert_mass(jumps: &[Jump]) {
+fn assert_mass(jumps: &[Jump]) {
     for jump in jumps {
         let worn = jump.volume[0] + jump.volume[1];
         let off = (jump.debris + jump.ejected - worn).abs();
@@ -36,7 +36,7 @@ pub(crate) fn assert_mass(jumps: &[Jump]) {
 }
 
 /// Energy wear with and without oxygen.
-pub(crate) fn in_air(alpha: f64, starved: f64) -> BodyWear {
+fn in_air(alpha: f64, starved: f64) -> BodyWear {
     let law = |alpha| {
         Arc::new(DissipatedEnergy {
             alpha,

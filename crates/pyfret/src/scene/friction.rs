@@ -38,8 +38,8 @@ members!(
 /// history : (History, list of pairs), optional
 ///     Factor of the coefficient, linear between the pairs (history, factor).
 /// layers : sequence of float, optional
-///     Coefficient of each layer that wear exposes, in place of `mu`: the coatings of the coated body
-///     from the outermost on, then its substrate. Before wear the first one holds.
+///     Coefficient of each layer that wear exposes, in place of `mu`: the coatings of the coated
+///     body from the outermost on, then its substrate. Before wear the first one holds.
 /// starved : float, optional
 ///     Coefficient where no oxygen arrives; see :class:`pyfret.wear.Air`. The aerated share s of a
 ///     cell gives starved + (mu - starved) s.
@@ -53,7 +53,7 @@ members!(
 ///     same shape or one number. `mu` is about the size of it: the measure of tolerances, and the
 ///     coefficient of cells without pressure so far. An increment is solved again until the
 ///     coefficient follows from pressure and history at its end. What the function raises is raised
-///     as it is. It also gets those of `worn1`, `worn2` (worn depths [m]), `layer1`, `layer2` (the
+///     as it is. It also gets arrays of `worn1`, `worn2` (worn depths [m]), `layer1`, `layer2` (the
 ///     exposed layer, from 0), `bed` (debris per area [m]) and `aerated` (share with oxygen) that
 ///     its signature names. No other law beside it; over cycles of wear slip and
 ///     energy are sums over all cycles so far. A store keeps that there is a law, not which:
