@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 from pathlib import Path
 from types import ModuleType
 
@@ -13,6 +15,7 @@ from conftest import W, sphere_on_flat
 from pyfret._core import measure
 from pyfret._util.modules import SYNONYMS
 from pyfret._util.numbers import layer_index
+from pyfret.fit.outcome import neighbour_correlation
 
 PITCH = 2e-6
 X, Y = np.meshgrid(PITCH * np.arange(16), PITCH * np.arange(12), indexing="ij")
@@ -176,3 +179,41 @@ def test_every_synonym_of_a_module_leads_to_a_public_name() -> None:
         owner = fret
         for part in word.split("."):
             owner = getattr(owner, part)
+
+
+@pytest.mark.parametrize(
+    ("name", "right"),
+    [
+        ("von_mises", r"result.at\(-1\).stress\(\).von_mises"),
+        ("s_1", r"result.at\(-1\).stress\(\).s_1"),
+        ("max_stress", r"result.at\(-1\).stress\(\).maximum"),
+        ("loop", r"columns=\[.delta_x., .T_x.\].*result.loops\(\)"),
+        ("energy", "loops and dissipated_energy"),
+        ("peak_pressure", "p_max and p_H"),
+        ("max_pressure", "it is called p_max"),
+    ],
+)
+@pytest.mark.solves
+def test_a_wrong_name_of_a_result_is_answered(coated: fret.Result, name: str, right: str) -> None:
+    with pytest.raises(AttributeError, match=right):
+        getattr(coated, name)
+
+
+def test_a_wrong_name_of_a_measurement_is_answered() -> None:
+    turns = 1e-6 * np.sin(np.linspace(0.0, 12.0, 200))
+    for data in (
+        fret.fit.Loops.from_arrays(turns, 1e7 * turns),
+        fret.fit.Scar.from_arrays([0.0, 1e-6], [1e-6, 2e-6], wear={"cycles": 10}),
+    ):
+        with pytest.raises(AttributeError, match=r"fret.fit\(scene, data"):
+            data.mu  # type: ignore[union-attr]  # noqa: B018
+        with pytest.raises(AttributeError, match=r"has no 'nois'; did you mean noise"):
+            data.nois  # type: ignore[union-attr]  # noqa: B018
+        assert copy.copy(data) == pickle.loads(pickle.dumps(data)) == data
+
+
+def test_neighbouring_residuals_are_told_from_scatter() -> None:
+    scatter = np.random.default_rng(2).normal(size=400)
+    assert abs(neighbour_correlation(scatter)) < 0.2
+    assert neighbour_correlation(scatter + 3 * np.sin(np.linspace(0, 20, 400))) > 0.5
+    assert neighbour_correlation(scatter[:4]) == 0.0

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pyfret._util.attributes import missing_attribute
+
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
 
@@ -44,6 +46,23 @@ class HoldsArrays(Base):
             if attribute.repr
         )
         return f"{type(self).__name__}({', '.join(shown)})"
+
+
+#: Words for what a scene has to be fitted for.
+FITTED = {
+    name: 'it follows from a fit, fret.fit(scene, data, unknown={"mu": (0.1, 1.2)})'
+    for name in ("mu", "friction", "friction_coefficient", "cof", "stiffness", "k")
+}
+
+
+def refuse_attribute(self: Any, name: str) -> Any:
+    """Refuse a name that an object does not have, with the nearest one."""
+    missing_attribute(self, name, FITTED)
+
+
+if not TYPE_CHECKING:
+    # A method within the class would let type checkers take any name.
+    HoldsArrays.__getattr__ = refuse_attribute
 
 
 def alike(one: Any, other: Any) -> bool:

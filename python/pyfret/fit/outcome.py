@@ -34,6 +34,10 @@ ALIKE = 0.97
 UNRESOLVED = 4.0
 #: Error of the model of the posterior over the noise from which it is reported.
 ROUGH = 0.3
+#: Residual over the given noise from which the model is doubted.
+EXCESS = 1.5
+#: Correlation of neighbouring residuals from which they count as a pattern.
+PATTERN = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +71,15 @@ class Posterior(HoldsArrays):
             low, high = self.interval(key)
             intervals.append(f"{key} = {np.median(values):.4g} [{low:.4g}, {high:.4g}]")
         return f"Posterior({', '.join(intervals)}; model errs by {self.error:.2g} of the noise)"
+
+
+def neighbour_correlation(residual: NDArray[np.float64]) -> float:
+    """Return the correlation of neighbouring residuals; 0 of fewer than ten."""
+    centred = residual - residual.mean()
+    square = float(centred @ centred)
+    if residual.size < 10 or square == 0:
+        return 0.0
+    return float(centred[1:] @ centred[:-1]) / square
 
 
 @dataclass(frozen=True)
@@ -220,6 +233,20 @@ class FitResult(Saveable, HoldsArrays):
         if not self.converged:
             sentences.append(f"the search did not settle in {self.solves} solves")
         for n, measured in enumerate(self.sets):
+            noise = measured.data.noise
+            if noise is not None and self.noise[n] > EXCESS * noise:
+                sentences.append(
+                    f"the residual of {measured.labels[1]}, {self.noise[n]:.3g}, is "
+                    f"{self.noise[n] / noise:.1f} times the given noise: the model has another "
+                    "shape, and its error may exceed the confidence"
+                )
+            alike = neighbour_correlation(self.residual[n])
+            if isinstance(measured.data, Loops) and alike > PATTERN:
+                sentences.append(
+                    f"the residual of {measured.labels[1]} is no scatter: neighbours have a "
+                    f"correlation of {alike:.2f}. The loop has another shape than the model, which "
+                    "the confidence does not contain"
+                )
             if isinstance(measured.data, Loops):
                 sentences += self._doubts_of_loops(measured.data, self.noise[n])
         return sentences

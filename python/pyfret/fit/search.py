@@ -183,7 +183,20 @@ class Search:
         self.known |= dict(zip(fresh, done, strict=True))
 
     def weights(self) -> list[float]:
-        """Noise that each set of data is divided by."""
+        """Noise that each set of data is divided by.
+
+        Raises
+        ------
+        ValueError
+            All data of a set are equal, and its noise is not given.
+        """
+        for model in self.models:
+            if model.noise is None and not np.ptp(model.measured) > 0:
+                raise ValueError(
+                    f"data: all {model.measured.size} values of a {type(model.data).__name__} are "
+                    "equal, so their scatter is unknown: give noise=, its standard deviation in SI "
+                    "units"
+                )
         return [
             model.noise
             if model.noise is not None
@@ -250,7 +263,8 @@ class Search:
         residual, jacobian = self.residual(x), self.jacobian(x)
         degrees = max(residual.size - x.size, 1)
         variance = float(residual @ residual) / degrees
-        if all(model.noise is not None for model in self.models):
+        has_noise = all(model.noise is not None for model in self.models)
+        if has_noise:
             variance = max(variance, 1.0)
         scale = np.linalg.norm(jacobian, axis=0)
         scale[scale == 0] = 1.0
@@ -259,7 +273,9 @@ class Search:
         spread = np.sqrt(np.diag(covariance))
         safe = np.where(spread > 0, spread, 1.0)
         correlation = covariance[:n, :n] / np.outer(safe[:n], safe[:n])
-        t = float(stats.t.ppf(0.975, degrees))
+        # Student's t is for a scatter that is known from the residuals alone.
+        is_scatter_known = has_noise and variance == 1.0
+        t = float(stats.norm.ppf(0.975) if is_scatter_known else stats.t.ppf(0.975, degrees))
         ends_by_model = [
             (t * spread_of_unknown, t * spread_of_unknown) for spread_of_unknown in spread[:n]
         ]

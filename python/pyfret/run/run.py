@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from pyfret import _core
 from pyfret._util.attributes import attribute_error
 from pyfret._util.lazy import xr
 from pyfret._util.tables import as_table
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
 
 __all__ = ["Run", "one_of"]
 
+#: Measures of stress, and words for the largest one: they belong to an increment.
+LABELS = frozenset(name for name, label in _core.probe_labels().items() if label[0] == "Pa")
+STRESS_WORDS = frozenset(("stress", "stresses", "max_stress", "peak_stress", "mises"))
 #: Scalars of an increment that add up over a branch.
 SUMMED = frozenset(
     (
@@ -84,6 +88,14 @@ class Run(OfRun):
             for k, v in self.dataset.variables.items()
             if "x" in v.dims
         }
+        if name in LABELS or name in STRESS_WORDS:
+            measure = name if name in LABELS else "maximum()"
+            fields[name] = f"it is a stress below an increment, result.at(-1).stress().{measure}"
+        if name in ("loop", "fretting_loop", "hysteresis"):
+            fields[name] = (
+                'its points are result.to_csv("loop.csv", columns=["delta_x", "T_x"]), its picture '
+                "fret.plot.fretting_loop(result), the energies of all cycles result.loops()"
+            )
         if name == "contact_radius":
             fields[name] = "of a line contact it is half_width"
         public = (member for member in dir(type(self)) if not member.startswith("_"))
