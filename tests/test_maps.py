@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import pyfret as fret
+from pyfret.scene import standard_maps
 from pyfret.scene.reading import check_sizes, remove_mean
 
 StoreError = fret.errors.StoreError
@@ -145,6 +146,32 @@ def test_the_mean_is_over_measured_points() -> None:
     remove_mean(heights)
     assert np.nanmean(heights) == pytest.approx(0.0, abs=1e-15)
     assert np.isnan(heights).sum() == 1
+
+
+@pytest.mark.filterwarnings("ignore:.*BCR-1.0 fixes no direction")
+@pytest.mark.parametrize("revision", ["ISO_1_0", "ISO_2_0", "BCR_1_0"])
+@pytest.mark.parametrize("kind", ["INT16", "BINARY64"])
+def test_a_large_sdf_is_read_in_pieces(
+    revision: str, kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sdfio = pytest.importorskip("sdfio")
+    heights = np.round(np.random.default_rng(0).normal(0.0, 1e-6, (23, 17)), 10)
+    metadata = sdfio.Metadata(revision=sdfio.Revision[revision], data_type=sdfio.DataType[kind])
+    path = tmp_path / "map.sdf"
+    sdfio.write(path, heights, x_scale=1e-6, y_scale=2e-6, metadata=metadata)
+    whole = fret.read_surface(path)
+    calls = []
+    reading = sdfio.read
+    monkeypatch.setattr(sdfio, "read", lambda source: calls.append(source) or reading(source))
+    monkeypatch.setattr(standard_maps, "PIECE", 5 * 17)
+    in_pieces = fret.read_surface(path)
+    assert len(calls) == 6
+    np.testing.assert_array_equal(in_pieces.values, whole.values)
+    assert in_pieces.spacing == (1e-6, 2e-6)
+    # A head that counts more points than the file has is no reason to reserve them.
+    path.write_bytes(path.read_bytes()[:-9])
+    with pytest.raises(StoreError, match="no whole SDF file"):
+        fret.read_surface(path)
 
 
 def test_an_unknown_revision_is_refused_by_name(tmp_path: Path) -> None:

@@ -67,10 +67,12 @@ def read_by_surface_topography(
             surface = measured(reader, index, spacing, unit)
             if surface.dim != 2:
                 raise StoreError(profile(surface.nb_grid_pts[0]))
-            surface = surface.to_unit("m")
+            kind, scale = unit_of(str(surface.unit)) or ("", 1.0)
+            if kind != "length":
+                surface, scale = surface.to_unit("m"), 1.0
             trended = surface if detrend == "center" else surface.detrend(detrend)
             heights: Any = trended.heights()
-            x, y = surface.pixel_size
+            x, y = (scale * step for step in surface.pixel_size)
     except StoreError:
         raise
     except Exception as error:
@@ -78,16 +80,25 @@ def read_by_surface_topography(
     if reader.format() == "gwy" and np.ma.is_masked(heights):
         count = int(np.ma.getmaskarray(heights).sum())
         reading.notes.append(f"{count} points under a mask of Gwyddion count as not measured")
-    masked = np.ma.is_masked(heights)
-    values = heights.filled(np.nan) if masked else np.ma.getdata(heights)
-    is_own = values.dtype == float and values.flags.owndata and values.flags.writeable
-    reading.heights = values if is_own else np.array(values, dtype=float)
+    reading.heights = with_holes(heights)
+    if scale != 1.0:
+        reading.heights *= scale
     if detrend == "center":
         remove_mean(reading.heights)
     reading.spacing = (float(x), float(y))
     if spacing is not None and reader.channels[index].physical_sizes is not None:
         replace_spacing(reading, spacing)
     return reading
+
+
+def with_holes(heights: Any) -> Any:
+    """Return heights as an array that may be changed, NaN where masked."""
+    values = np.ma.getdata(heights)
+    if values.dtype != float or not values.flags.writeable:
+        values = np.array(values, dtype=float)
+    if np.ma.is_masked(heights):
+        values[np.ma.getmaskarray(heights)] = np.nan
+    return values
 
 
 def replace_spacing(reading: Reading, spacing: Length | tuple[Length, Length]) -> None:

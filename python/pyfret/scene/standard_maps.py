@@ -9,8 +9,10 @@ SurfaceTopography reads the first revisions, and the others are refused by name.
 from __future__ import annotations
 
 import re
+import struct
 import sys
 import zipfile
+from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -34,6 +36,12 @@ __all__ = [
 
 #: First characters of an SDF file: text or binary, the standard or its predecessor, its edition.
 SDF = re.compile(rb"(?:\xef\xbb\xbf)?[aAbB](?:ISO|BCR)-\d\.\d")
+#: A binary head: mark, manufacturer and dates, then the numbers of points and lines (by edition),
+#: scales and types [bytes].
+BEFORE_COUNTS, AFTER_COUNTS = 42, 35
+COUNTS = {b"ISO-1.0": "<HH", b"BCR-1.0": "<HH", b"ISO-2.0": "<II"}
+#: Points of a piece of a large binary file: little memory beside the map.
+PIECE = 1 << 22
 #: Whether this Python has x3pio and sdfio.
 HAS_LIBRARIES = sys.version_info[:2] >= (3, 11)
 #: Revisions that SurfaceTopography reads as well.
@@ -84,16 +92,15 @@ def read_sdf(path: Path, unit: str | None, spacing: object, channel: object) -> 
     must_say_all(unit, spacing)
     sdfio = needed("sdfio", "surfaces")
     try:
-        file = sdfio.read(path)
+        header, lines = _read_in_pieces(path, sdfio)
     except sdfio.SdfError as error:
         raise StoreError(f"is no whole SDF file: {' '.join(str(error).split())}") from error
-    header = file.header
     kind = f"SDF {header.revision}, {header.format.name.lower()}"
     only_channel("Default", channel)
-    if min(file.data.shape) == 0:
+    if min(lines.shape) == 0:
         raise StoreError("has no points")
     notes = []
-    heights = file.data.T
+    heights = lines.T
     if str(header.revision) == "BCR-1.0":
         # sdfio turns the lines over, as MountainsMap draws them.
         heights = heights[:, ::-1]
@@ -111,6 +118,48 @@ def read_sdf(path: Path, unit: str | None, spacing: object, channel: object) -> 
         "Default",
         notes,
     )
+
+
+def _read_in_pieces(path: Path, sdfio: Any) -> tuple[Any, Any]:
+    """Return the header and the lines of an SDF file, pieces of a large binary one in turn.
+
+    A piece is a file of its own: the head with another number of lines, and these lines.
+    """
+    with path.open("rb") as file:
+        start = file.read(BEFORE_COUNTS)
+        counts = struct.Struct(COUNTS.get(start[1:8], "<HH"))
+        sizes, end = file.read(counts.size), file.read(AFTER_COUNTS)
+        is_binary = start[:1] in (b"b", b"B") and start[1:8] in COUNTS
+        if not is_binary or len(end) < AFTER_COUNTS:
+            return _read_whole(path, sdfio)
+        points, lines = counts.unpack(sizes)
+
+        def read_lines(count: int, content: bytes) -> Any:
+            head = start + counts.pack(points, count) + end
+            return sdfio.read(BytesIO(head + content))
+
+        header = read_lines(0, b"").header
+        line = points * int(re.sub(r"\D", "", header.data_type.name)) // 8
+        is_whole = path.stat().st_size >= file.tell() + lines * line
+        if points * lines <= PIECE or not is_whole:
+            return _read_whole(path, sdfio)
+        heights = np.empty((lines, points))
+        step = max(1, PIECE // points)
+        for first in range(0, lines, step):
+            count = min(step, lines - first)
+            piece = read_lines(count, file.read(count * line)).data
+            # sdfio turns the lines of BCR-1.0 over, piece by piece.
+            place = slice(first, first + count)
+            if str(header.revision) == "BCR-1.0":
+                place = slice(lines - first - count, lines - first)
+            heights[place] = piece
+    return header, heights
+
+
+def _read_whole(path: Path, sdfio: Any) -> tuple[Any, Any]:
+    """Return the header and the lines of an SDF file that is read at once."""
+    file = sdfio.read(path)
+    return file.header, file.data
 
 
 def read_x3p(path: Path, unit: str | None, spacing: object, channel: object) -> Reading:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
+import warnings
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any, Literal, TypeAlias
@@ -189,7 +190,11 @@ def read_plain(
     shape = surface.values.shape
     check_sizes(shape, surface.spacing)
     if unit is None:
-        check_heights(surface.peak_to_valley, shape, surface.spacing)
+        try:
+            check_heights(surface.peak_to_valley, shape, surface.spacing)
+        except StoreError:
+            if not states_unit(path, spacing, column):
+                raise
     if detrend == "center":
         surface = surface.replace(values=surface.values - surface.values.mean())
     elif detrend is not None:
@@ -206,6 +211,20 @@ def read_plain(
     if is_matrix:
         print(shown(f"{path}: {ALONG_X}"), file=sys.stderr)
     return surface
+
+
+def states_unit(path: Path, spacing: Any, column: str | None) -> bool:
+    """Check that a file states its unit: it refuses another one."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        for unit in ("um", "nm"):
+            try:
+                SurfaceMap.from_file(
+                    path, spacing=spacing, unit=unit, channel=column, missing="fill"
+                )
+            except StoreError:
+                return True
+    return False
 
 
 def beginning(path: str | PathLike[str]) -> bytes:
