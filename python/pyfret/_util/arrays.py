@@ -115,6 +115,10 @@ def numbers(values: ArrayLike, name: str, *, holes: bool = False) -> NDArray[np.
         array = array.astype(float, copy=False)
     except (TypeError, ValueError, OverflowError) as error:
         raise TypeError(f"{name}: must be an array of numbers: {error}") from error
+    with np.errstate(over="ignore", invalid="ignore"):
+        # A sum is a number where all terms are: one pass, without a copy.
+        if np.isfinite(array.sum()):
+            return array
     bad = np.isinf(array) if holes else ~np.isfinite(array)
     if bad.any():
         where = [int(n) for n in np.argwhere(bad)[0]]

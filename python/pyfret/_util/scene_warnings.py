@@ -81,5 +81,10 @@ def sizes(given: Any) -> Iterator[float]:
         return
     array = np.asarray(given)
     if array.dtype.kind in "iuf" and array.size:
+        largest = max(-float(array.min()), float(array.max()))
+        if math.isfinite(largest):
+            # Without a copy of a long record.
+            yield largest
+            return
         finite = np.abs(array[np.isfinite(array)])
         yield from (float(finite.max()),) if finite.size else ()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from dataclasses import dataclass, field
-from itertools import pairwise
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -182,37 +181,54 @@ class Loops(HoldsArrays):
             There is no closed loop.
         """
         shift, force = together(delta=delta, T=T, holes=True)
-        turns = find_turns(shift)
-        if detrend:
-            shift, force, turns = _without_drift(shift, force, turns)
-            drift = False if drift is None else drift
-        if len(turns) < 2:
-            raise ValueError(
-                "the shift must turn twice at least: a loop is a way there and a way back"
-            )
-        # One cycle may end where it began without a turn of its own.
-        closed = len(turns) == 2
-        order = slice(0, shift.size) if closed else slice(turns[0], turns[-1] + 1)
-        down, cycle = np.zeros(shift.size, bool), np.zeros(shift.size, np.int64)
-        for n, (first, last) in enumerate(pairwise(turns)):
-            down[first : last + 1] = shift[last] < shift[first]
-            cycle[first : last + 1] = n // 2
-        if closed:
-            outside = np.r_[0 : turns[0], turns[1] + 1 : shift.size]
-            down[outside] = shift[turns[1]] > shift[turns[0]]
-        # The first and the last whole cycle: half of one has another middle.
-        begin = order.start
-        ends = [slice(0, None)] * 2
-        if len(turns) > 3:
-            ends = [slice(0, turns[2] - begin + 1), slice(turns[-3] - begin, None)]
-        middles = [
-            [0.5 * (v[order][part].max() + v[order][part].min()) for part in ends]
-            for v in (shift, force)
-        ]
-        moved = (middles[0][1] - middles[0][0], middles[1][1] - middles[1][0])
-        points = (shift[order], force[order], down[order], cycle[order])
-        between = turns_between(shift, turns) - [order.start, 0.0, 0.0]
-        return Loops(*points, W, noise, moved, tilt, drift, between)
+        return _separate_loops(
+            shift, force, detrend=detrend, drifts=drift, W=W, noise=noise, tilt=tilt
+        )
+
+
+def _separate_loops(
+    shift: NDArray[np.float64],
+    force: NDArray[np.float64],
+    *,
+    detrend: bool,
+    drifts: bool | None,
+    **options: Any,
+) -> Loops:
+    """Return the loops of points without holes, which are kept as they are."""
+    turns = find_turns(shift)
+    if detrend:
+        shift, force, turns = _without_drift(shift, force, turns)
+        drifts = False if drifts is None else drifts
+    if len(turns) < 2:
+        raise ValueError("the shift must turn twice at least: a loop is a way there and a way back")
+    # One cycle may end where it began without a turn of its own.
+    closed = len(turns) == 2
+    order = slice(0, shift.size) if closed else slice(turns[0], turns[-1] + 1)
+    # Branches fall and rise in turn; the point of a turn belongs to the branch after it.
+    falls = bool(shift[turns[1]] < shift[turns[0]])
+    turned = np.zeros(turns[-1] - turns[0] + 1, dtype=np.int8)
+    turned[np.subtract(turns[1:-1], turns[0])] = 1
+    cycle = np.cumsum(turned, dtype=np.int64)
+    cycle >>= 1
+    # The sum may run over: its last bit stays right.
+    down = (np.cumsum(turned, out=turned) & 1) != int(falls)
+    if closed:
+        before, after = turns[0], shift.size - turns[1] - 1
+        down = np.pad(down, (before, after), constant_values=not falls)
+        cycle = np.pad(cycle, (before, after))
+    # The first and the last whole cycle: half of one has another middle.
+    begin = order.start
+    ends = [slice(0, None)] * 2
+    if len(turns) > 3:
+        ends = [slice(0, turns[2] - begin + 1), slice(turns[-3] - begin, None)]
+    middles = [
+        [0.5 * (v[order][part].max() + v[order][part].min()) for part in ends]
+        for v in (shift, force)
+    ]
+    moved = (middles[0][1] - middles[0][0], middles[1][1] - middles[1][0])
+    points = (shift[order], force[order], down, cycle)
+    between = turns_between(shift, turns) - [order.start, 0.0, 0.0]
+    return Loops(*points, drift=moved, drifts=drifts, turns=between, **options)
 
 
 def _without_drift(
@@ -393,9 +409,12 @@ def read_loops(
     shift = table.column("length", ("delta", "d_", "weg", "x", "shift", "disp"), delta)
     force = table.column("force", ("t", "q", "kraft", "f", "force"), T)
     x, y = read_pair(table, shift, force)
-    options: dict[str, Any] = {"W": W, "noise": noise, "tilt": tilt, "drift": drift}
+    # A sum is a number where all terms are.
+    if np.isnan(x.sum() + y.sum()):
+        whole = ~(np.isnan(x) | np.isnan(y))
+        x, y = x[whole], y[whole]
     try:
-        return Loops.from_arrays(x, y, detrend=detrend, **options)
+        return _separate_loops(x, y, detrend=detrend, drifts=drift, W=W, noise=noise, tilt=tilt)
     except ValueError as error:
         raise ValueError(f"{table.place}: {error}") from error
 

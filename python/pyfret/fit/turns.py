@@ -18,8 +18,10 @@ TURN = 0.3
 BESIDE, MOST_BESIDE, OF_BRANCH = 4, 12, 0.1
 #: Part of the direction from the outermost point to a turn that is its error.
 OF_WAY = 0.25
-#: Points whose least and largest shift are compared at once.
-BLOCK = 1024
+#: Points of a block, whose least and largest shift are compared at once.
+BLOCK = 32
+#: Numbers on a point of each side where its parabola is looked at, and turns at a time.
+STEPS, AT_ONCE = 401, 256
 #: Part of half of the range beyond which the first or the last point counts as a turn.
 OUTER = 0.8
 
@@ -30,41 +32,56 @@ def find_turns(delta: NDArray[np.float64]) -> list[int]:
     The first point is a turn if the shift began at one of its ends, and the last one likewise.
     Blocks of points without a turn are passed over by their least and largest shift.
     """
-    low, high = (float(delta.min()), float(delta.max())) if delta.size else (0.0, 0.0)
-    least = TURN * (high - low)
     turns: list[int] = []
+    if not delta.size:
+        return turns
+    begins = np.arange(0, delta.size, BLOCK)
+    lows, highs = np.minimum.reduceat(delta, begins), np.maximum.reduceat(delta, begins)
+    low, high = float(lows.min()), float(highs.max())
+    least = TURN * (high - low)
     if least == 0.0:
         return turns
 
     def is_outer(point: int) -> bool:
         return abs(float(delta[point]) - 0.5 * (high + low)) > 0.5 * OUTER * (high - low)
 
-    extreme, direction = 0, 0
-    for first in range(0, delta.size, BLOCK):
-        block = delta[first : first + BLOCK]
-        if direction != 0:
-            ahead = direction * block
-            top = float(ahead.max())
-            if max(top, direction * float(delta[extreme])) - float(ahead.min()) <= least:
-                if top >= direction * float(delta[extreme]):
-                    # The last of equal ones.
-                    extreme = first + block.size - 1 - int(ahead[::-1].argmax())
+    # The outermost shift since the last turn, its point or its block, and the sign of the way.
+    outermost, point, block, direction = float(delta[0]), 0, -1, 0
+    for n, (bottom, top) in enumerate(zip(lows.tolist(), highs.tolist(), strict=True)):
+        if direction > 0:
+            if (top if top > outermost else outermost) - bottom <= least:
+                if top >= outermost:
+                    outermost, block = top, n
                 continue
-        for n, value in enumerate(block.tolist(), first):
-            ahead_by = value - delta[extreme]
+        elif direction < 0 and top - (bottom if bottom < outermost else outermost) <= least:
+            if bottom <= outermost:
+                outermost, block = bottom, n
+            continue
+        if block >= 0:
+            point, block = last_equal(delta, block, outermost), -1
+        for place, value in enumerate(delta[n * BLOCK : (n + 1) * BLOCK].tolist(), n * BLOCK):
+            ahead = value - outermost
             if direction == 0:
-                if abs(ahead_by) > least:
-                    if is_outer(extreme):
-                        turns.append(extreme)
-                    direction, extreme = int(np.sign(ahead_by)), n
-            elif direction * ahead_by >= 0:
-                extreme = n
-            elif -direction * ahead_by > least:
-                turns.append(extreme)
-                direction, extreme = -direction, n
-    if is_outer(extreme):
-        turns.append(extreme)
+                if abs(ahead) > least:
+                    if is_outer(point):
+                        turns.append(point)
+                    direction, outermost, point = (1 if ahead > 0.0 else -1), value, place
+            elif direction * ahead >= 0:
+                outermost, point = value, place
+            elif -direction * ahead > least:
+                turns.append(point)
+                direction, outermost, point = -direction, value, place
+    if block >= 0:
+        point = last_equal(delta, block, outermost)
+    if is_outer(point):
+        turns.append(point)
     return turns
+
+
+def last_equal(delta: NDArray[np.float64], block: int, value: float) -> int:
+    """Return the last point of a block with a value."""
+    values = delta[block * BLOCK : (block + 1) * BLOCK].tolist()
+    return block * BLOCK + len(values) - 1 - values[::-1].index(value)
 
 
 def remove_drift(
@@ -97,27 +114,37 @@ def turns_between(delta: NDArray[np.float64], turns: list[int]) -> NDArray[np.fl
     turn the shift is the lower of both, and the turn lies where that is largest. Points rarely lie
     on the turn.
     """
-    refined = []
-    for n, at in enumerate(turns):
-        before = at - turns[n - 1] if n > 0 else at
-        after = turns[n + 1] - at if n + 1 < len(turns) else delta.size - 1 - at
-        many = min(max(BESIDE, int(OF_BRANCH * min(before, after))), MOST_BESIDE)
-        if min(before, after) < many:
-            continue
-        sign = 1.0 if delta[at] > delta[at - many] else -1.0
-        s = np.linspace(-1.0, 1.0, 401)
-        sides = []
-        for side in (np.arange(-many, 0), np.arange(1, many + 1)):
-            parabola = np.polyfit(side, sign * delta[at + side], 2)
-            residual = sign * delta[at + side] - np.polyval(parabola, side)
-            sides.append(
-                (np.polyval(parabola, s), float(np.sqrt(residual @ residual / (many - 3))))
-            )
-        lower = np.minimum(sides[0][0], sides[1][0])
-        top = int(lower.argmax())
-        # Not below the outermost point, unless that stands out by its noise.
-        noise = max(sides[0][1], sides[1][1])
-        turn = max(float(lower[top]), sign * float(delta[at]) - 2.0 * noise)
-        error = OF_WAY * abs(turn - sign * float(delta[at])) + noise
-        refined.append((at + float(s[top]), sign * turn, error))
-    return np.array(refined).reshape(-1, 3)
+    at = np.asarray(turns, dtype=np.int64)
+    lengths = np.diff(np.r_[0, at, delta.size - 1])
+    shorter = np.minimum(lengths[:-1], lengths[1:])
+    many = np.clip((OF_BRANCH * shorter).astype(int), BESIDE, MOST_BESIDE)
+    many[shorter < many] = 0
+    refined = np.empty((at.size, 3))
+    for count in range(BESIDE, MOST_BESIDE + 1):
+        chosen = np.flatnonzero(many == count)
+        for first in range(0, chosen.size, AT_ONCE):
+            rows = chosen[first : first + AT_ONCE]
+            refined[rows] = _refine(delta, at[rows], count)
+    return refined[many > 0]
+
+
+def _refine(delta: NDArray[np.float64], at: NDArray[np.int64], many: int) -> NDArray[np.float64]:
+    """Return the number of the point, shift and error of turns, from `many` points beside each."""
+    shift = delta[at]
+    sign = np.where(shift > delta[at - many], 1.0, -1.0)
+    s = np.linspace(-1.0, 1.0, STEPS)
+    heights, noises = [], []
+    for side in (np.arange(-many, 0), np.arange(1, many + 1)):
+        values = sign[:, None] * delta[at[:, None] + side]
+        powers = np.vander(side, 3)
+        parabolas = values @ np.linalg.pinv(powers).T
+        residuals = values - parabolas @ powers.T
+        heights.append(parabolas @ np.vander(s, 3).T)
+        noises.append(np.sqrt((residuals**2).sum(axis=1) / (many - 3)))
+    lower = np.minimum(*heights)
+    top = lower.argmax(axis=1)
+    # Not below the outermost point, unless that stands out by its noise.
+    noise = np.maximum(*noises)
+    turn = np.maximum(lower[np.arange(at.size), top], sign * shift - 2.0 * noise)
+    error = OF_WAY * np.abs(turn - sign * shift) + noise
+    return np.stack([at + s[top], sign * turn, error], axis=1)
