@@ -1,13 +1,8 @@
-"""The workbench in a real browser: three jobs, four widths, two browsers, axe-core.
-
-FRET_WORKBENCH_MINUTES sets how long the two browsers act at random (default: a quarter).
-"""
+"""The workbench in a real browser: three jobs, four widths, two browsers, axe-core."""
 
 from __future__ import annotations
 
 import os
-import random
-import time
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
@@ -21,6 +16,7 @@ import pyfret as fret
 pytest.importorskip("dash")
 pytest.importorskip("playwright.sync_api", reason="no playwright")
 
+from campaign.browsers import act_at_random
 from pyfret.workbench import edits
 from pyfret.workbench.page import explore
 from pyfret.workbench.presets import FIRST, make_preset
@@ -304,62 +300,38 @@ def test_all_tabs_fit_at_four_widths(browser: Any, page: Any, scheme: str) -> No
     user.close()
 
 
-def act(user: User, choice: random.Random) -> None:
-    """Do something at random."""
-    from playwright.sync_api import TimeoutError
+def drop_folder(user: User, folder: Path) -> None:
+    """Drop a folder of this machine on the page."""
+    user.actions += 1
+    session = user.context.new_cdp_session(user.view)
+    box = user.view.locator("#drop").bounding_box()
+    place = {"x": box["x"] + 20.0, "y": box["y"] + 20.0}
+    data = {"items": [], "files": [str(folder)], "dragOperationsMask": 1}
+    for kind in ("dragEnter", "dragOver", "drop"):
+        session.send("Input.dispatchDragEvent", {"type": kind, **place, "data": data})
 
-    view = user.view
-    actions = [
-        lambda: user.go(choice.choice(TABS)),
-        lambda: user.go("contact"),
-        lambda: user.type("#number-friction-mu", f"{choice.uniform(0.35, 0.9):.3f}"),
-        lambda: user.type("#number-path-0-W", f"{choice.uniform(8.0, 15.0):.3f}"),
-        lambda: user.choose("#preset", choice.choice(["Connector", "Crossed cylinders", FIRST])),
-        lambda: user.click("[data-event=add][data-part=body2]"),
-        lambda: user.click("[data-event=remove]"),
-        lambda: user.click(".headline [data-event=pin]"),
-        lambda: user.click("[data-event=unpin]"),
-        lambda: user.choose("#criterion", choice.choice(["crossland", "findley"])),
-    ]
-    try:
-        view.set_default_timeout(400)
-        choice.choice(actions)()
-    except TimeoutError:
-        # An element of another tab cannot be clicked.
-        pass
-    finally:
-        view.set_default_timeout(PATIENCE)
-    view.wait_for_timeout(choice.uniform(20, 200))
+
+def test_the_folder_of_a_store_is_dropped(browser: Any, page: Any, tmp_path: Path) -> None:
+    scene = edits.replace_value(make_preset(FIRST)[0], "grid.n", 24)
+    path = fret.LoadPath.start().normal(7.0, increments=2)
+    fret.solve(scene, path, out=tmp_path / "rig.zarr", progress=False)
+    user = User(browser, page.url)
+    user.wait()
+    user.go("files")
+    drop_folder(user, tmp_path / "rig.zarr")
+    card = user.view.locator("#files .card", has_text="rig.zarr")
+    card.wait_for(timeout=PATIENCE)
+    assert "store of pyfret" in card.inner_text()
+    user.click("#files [data-event=open]")
+    user.go("contact")
+    user.see("#number-grid-n", "24")
+    user.settle()
+    user.go("out")
+    assert fret.Scene.from_toml(user.view.inner_text("#toml")).path.branches[0].W == 7.0
+    user.close()
 
 
 @pytest.mark.slow
 def test_two_browsers_that_act_at_random_mix_nothing(browser: Any, page: Any) -> None:
-    import psutil
-
-    process = psutil.Process()
-    users = [User(browser, page.url) for _ in range(2)]
-    choices = [random.Random(seed) for seed in (1, 2)]
-    minutes = float(os.environ.get("FRET_WORKBENCH_MINUTES", "0.25"))
-    for user in users:
-        user.wait()
-    sizes = []
-    start = time.monotonic()
-    while time.monotonic() - start < 60.0 * minutes:
-        for user, choice in zip(users, choices, strict=True):
-            act(user, choice)
-        sizes.append(process.memory_info().rss)
-    mus = (0.401, 0.702)
-    for user, mu in zip(users, mus, strict=True):
-        user.view.wait_for_timeout(500)
-        user.go("contact")
-        user.type("#number-friction-mu", f"{mu}")
-        user.settle()
-    for user, mu in zip(users, mus, strict=True):
-        user.go("out")
-        assert fret.Scene.from_toml(user.view.inner_text("#toml")).mu == mu
-        user.close()
-    if minutes >= 5.0:
-        half = len(sizes) // 2
-        grown = np.median(sizes[-half // 2 :]) - np.median(sizes[half : half + half // 2])
-        print(f"{len(sizes)} rounds, {sizes[-1] / 1e6:.0f} MB, grown by {grown / 1e6:.1f} MB")
-        assert grown < 30e6
+    sizes = act_at_random(browser, page.url, seconds=15.0)
+    assert len(sizes) >= 5

@@ -35,22 +35,18 @@ def render_headline(rows: Sequence[dict[str, Any]]) -> list[Any]:
 
 
 def render_numbers(rows: Sequence[dict[str, Any]]) -> Any:
-    """Make a table of numbers: name, value with its error, unit, place."""
+    """Make a table of numbers: name, value with its error and unit, and notes if there are any."""
     h = html()
-    heads = h.Tr(
-        [h.Th(text, scope="col") for text in ("number", "value with error", "unit", "note")]
-    )
-    lines = [
-        h.Tr(
-            [
-                h.Th(row["name"], scope="row"),
-                h.Td(row["text"], **{"data-number": row["name"], "data-value": repr(row["value"])}),
-                h.Td(row["unit"]),
-                h.Td(row["note"], className="note"),
-            ]
-        )
-        for row in rows
-    ]
+    has_notes = any(row["note"] for row in rows)
+    titles = ("number", "value with error", *(("note",) if has_notes else ()))
+    lines = []
+    for row in rows:
+        data = {"data-number": row["name"], "data-value": repr(row["value"])}
+        cells = [h.Th(row["name"], scope="row"), h.Td(with_unit(row), **data)]
+        if has_notes:
+            cells.append(h.Td(row["note"], className="note"))
+        lines.append(h.Tr(cells))
+    heads = h.Tr([h.Th(text, scope="col") for text in titles])
     return h.Table([h.Thead(heads), h.Tbody(lines)])
 
 

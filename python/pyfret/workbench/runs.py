@@ -64,8 +64,12 @@ def outcome_of_wear(worn: WearResult, number: int) -> dict[str, Any]:
     depth, volume = float(d[f"depth{number}"][-1]), float(d[f"volume{number}"][-1])
     unit = str(d[f"volume{number}"].attrs["units"])
     factor, shown = (1e18, "µm³") if unit == "m^3" else (1e12, "µm²")
+    field = d[f"worn{number}"][-1]
+    i, j = np.unravel_index(int(field.values.argmax()), field.shape)
+    place = f"deepest at x = {1e6 * float(d.x[i]):.3g} µm, y = {1e6 * float(d.y[j]):.3g} µm"
+    error = 1e6 * depth * worn.error_of("depth")
     numbers = [
-        number_with_error("worn depth", 1e6 * depth, 1e6 * depth * worn.error_of("depth"), "µm"),
+        number_with_error("worn depth", 1e6 * depth, error, "µm", place),
         number_with_error(
             "worn volume", factor * volume, factor * volume * worn.error_of("volume"), shown
         ),
