@@ -37,7 +37,7 @@ STEPS = {
 
 def has_text(view: Any, selector: str, start: str, before: str) -> bool:
     """Check that an element has a text which begins so, and is not the one before."""
-    text = view.inner_text(selector).strip()
+    text = str(view.inner_text(selector)).strip()
     return text.startswith(start) and text != before
 
 

@@ -59,18 +59,18 @@ def find_turns(delta: NDArray[np.float64]) -> list[int]:
             continue
         if block >= 0:
             point, block = last_equal(delta, block, outermost), -1
-        for place, value in enumerate(delta[n * BLOCK : (n + 1) * BLOCK].tolist(), n * BLOCK):
+        for index, value in enumerate(delta[n * BLOCK : (n + 1) * BLOCK].tolist(), n * BLOCK):
             ahead = value - outermost
             if direction == 0:
                 if abs(ahead) > least:
                     if is_outer(point):
                         turns.append(point)
-                    direction, outermost, point = (1 if ahead > 0.0 else -1), value, place
+                    direction, outermost, point = (1 if ahead > 0.0 else -1), value, index
             elif direction * ahead >= 0:
-                outermost, point = value, place
+                outermost, point = value, index
             elif -direction * ahead > least:
                 turns.append(point)
-                direction, outermost, point = -direction, value, place
+                direction, outermost, point = -direction, value, index
     if block >= 0:
         point = last_equal(delta, block, outermost)
     if is_outer(point):
@@ -80,7 +80,7 @@ def find_turns(delta: NDArray[np.float64]) -> list[int]:
 
 def last_equal(delta: NDArray[np.float64], block: int, value: float) -> int:
     """Return the last point of a block with a value."""
-    values = delta[block * BLOCK : (block + 1) * BLOCK].tolist()
+    values: list[float] = delta[block * BLOCK : (block + 1) * BLOCK].tolist()
     return block * BLOCK + len(values) - 1 - values[::-1].index(value)
 
 
@@ -125,7 +125,8 @@ def turns_between(delta: NDArray[np.float64], turns: list[int]) -> NDArray[np.fl
         for first in range(0, chosen.size, AT_ONCE):
             rows = chosen[first : first + AT_ONCE]
             refined[rows] = _refine(delta, at[rows], count)
-    return refined[many > 0]
+    chosen_turns: NDArray[np.float64] = refined[many > 0]
+    return chosen_turns
 
 
 def _refine(delta: NDArray[np.float64], at: NDArray[np.int64], many: int) -> NDArray[np.float64]:
@@ -147,4 +148,5 @@ def _refine(delta: NDArray[np.float64], at: NDArray[np.int64], many: int) -> NDA
     noise = np.maximum(*noises)
     turn = np.maximum(lower[np.arange(at.size), top], sign * shift - 2.0 * noise)
     error = OF_WAY * np.abs(turn - sign * shift) + noise
-    return np.stack([at + s[top], sign * turn, error], axis=1)
+    refined: NDArray[np.float64] = np.stack([at + s[top], sign * turn, error], axis=1)
+    return refined

@@ -140,7 +140,7 @@ def _read_in_pieces(path: Path, sdfio: Any) -> tuple[Any, Any]:
 
         header = read_lines(0, b"").header
         line = points * int(re.sub(r"\D", "", header.data_type.name)) // 8
-        is_whole = path.stat().st_size >= file.tell() + lines * line
+        is_whole = path.stat().st_size >= len(start + sizes + end) + lines * line
         if points * lines <= PIECE or not is_whole:
             return _read_whole(path, sdfio)
         heights = np.empty((lines, points))
@@ -149,10 +149,10 @@ def _read_in_pieces(path: Path, sdfio: Any) -> tuple[Any, Any]:
             count = min(step, lines - first)
             piece = read_lines(count, file.read(count * line)).data
             # sdfio turns the lines of BCR-1.0 over, piece by piece.
-            place = slice(first, first + count)
+            rows = slice(first, first + count)
             if str(header.revision) == "BCR-1.0":
-                place = slice(lines - first - count, lines - first)
-            heights[place] = piece
+                rows = slice(lines - first - count, lines - first)
+            heights[rows] = piece
     return header, heights
 
 

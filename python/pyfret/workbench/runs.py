@@ -66,10 +66,10 @@ def outcome_of_wear(worn: WearResult, number: int) -> dict[str, Any]:
     factor, shown = (1e18, "µm³") if unit == "m^3" else (1e12, "µm²")
     field = d[f"worn{number}"][-1]
     i, j = np.unravel_index(int(field.values.argmax()), field.shape)
-    place = f"deepest at x = {1e6 * float(d.x[i]):.3g} µm, y = {1e6 * float(d.y[j]):.3g} µm"
+    note = f"deepest at x = {1e6 * float(d.x[i]):.3g} µm, y = {1e6 * float(d.y[j]):.3g} µm"
     error = 1e6 * depth * worn.error_of("depth")
     numbers = [
-        number_with_error("worn depth", 1e6 * depth, error, "µm", place),
+        number_with_error("worn depth", 1e6 * depth, error, "µm", note),
         number_with_error(
             "worn volume", factor * volume, factor * volume * worn.error_of("volume"), shown
         ),
