@@ -204,6 +204,10 @@ def test_json_has_numbers() -> None:
     assert answer["path"]["increments"] == [8, 8]
     assert answer["convolutions"][0] < answer["convolutions"][1]
     assert 0 < answer["memory"]["needed"] < answer["memory"]["available"]
+    shared = answer["memory"]["answers"]
+    assert 0 < shared["sections"] < 128e6
+    assert shared["kernels"] > 0
+    assert 0 < shared["cycle"] < 250e6
     assert answer["errors"] == []
     # Each number has a unit.
     units = answer["units"]
