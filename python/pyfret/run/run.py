@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numbers
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -261,16 +261,18 @@ class Run(OfRun):
         branch = self.dataset.branch_of_increment.values
         starts = np.flatnonzero(np.diff(branch, prepend=branch[0] - 1))
         ends = np.append(starts[1:], branch.size) - 1
-        table = xr.Dataset(coords={"branch": branch[ends]}, attrs=self.dataset.attrs)
+        columns: dict[Any, Any] = {}
         for name, variable in self.dataset.variables.items():
             if variable.dims == ("increment",) and name not in self.dataset.indexes:
                 values = variable.values
                 kept = np.add.reduceat(values, starts) if name in SUMMED else values[ends]
-                table[name] = ("branch", kept, variable.attrs)
+                columns[name] = ("branch", kept, variable.attrs)
         if errors := self.dataset.attrs.get("path_error"):
             about = {"units": "1", "long_name": "estimated error of the shear from the increments"}
-            table["path_error"] = ("branch", np.asarray(errors, float)[branch[ends]], about)
-        return as_table(table)
+            columns["path_error"] = ("branch", np.asarray(errors, float)[branch[ends]], about)
+        # All columns at once: a dataset to which they are added one by one is copied each time.
+        coords = {"branch": branch[ends]}
+        return as_table(xr.Dataset(columns, coords=coords, attrs=self.dataset.attrs))
 
     @quantities
     def loops(self, *, direction: Literal["x", "y", "torsion"] = "x") -> Table:
