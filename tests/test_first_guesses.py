@@ -167,7 +167,7 @@ def test_a_wrong_name_of_a_module_is_answered_with_the_right_one(
 )
 def test_a_module_that_is_called_names_its_functions(name: str) -> None:
     module = getattr(fret, name)
-    expected = {"fit": "unknown", "study": "parameters"}.get(name, f"fret.{name}")
+    expected = {"fit": "unknown", "study": "scene = 1"}.get(name, f"fret.{name}")
     with pytest.raises((TypeError, ValueError), match=expected):
         module(1, {})
     with pytest.raises(AttributeError, match="no attribute 'nonsense'"):
