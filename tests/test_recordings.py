@@ -259,3 +259,11 @@ def test_measured_loops_are_described_and_drawn() -> None:
     assert "the loops slide" in text
     ax = loops.plot()
     assert ax.get_ylabel() == "force [N]"
+
+
+def test_one_cycle_with_two_turns_is_one_loop() -> None:
+    t = np.linspace(0.0, 1.0, 400)
+    loops = fret.fit.Loops.from_arrays(1e-6 * np.sin(2.0 * np.pi * t), np.cos(2.0 * np.pi * t))
+    assert int(loops.cycle.max()) == 0
+    assert loops.down.sum() == pytest.approx(200, abs=2)
+    np.testing.assert_allclose(loops.energies, 1e-6 * np.pi, rtol=1e-3)

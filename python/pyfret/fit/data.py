@@ -207,7 +207,7 @@ def _separate_loops(
     # Branches fall and rise in turn; the point of a turn belongs to the branch after it.
     falls = bool(shift[turns[1]] < shift[turns[0]])
     turned = np.zeros(turns[-1] - turns[0] + 1, dtype=np.int8)
-    turned[np.subtract(turns[1:-1], turns[0])] = 1
+    turned[np.asarray(turns[1:-1], dtype=np.int64) - turns[0]] = 1
     cycle = np.cumsum(turned, dtype=np.int64)
     cycle >>= 1
     # The sum may run over: its last bit stays right.
