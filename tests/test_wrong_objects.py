@@ -51,7 +51,9 @@ def test_a_misspelt_attribute_of_every_object_is_refused_with_the_nearest(public
         names = [item for item in dir(item) if not item.startswith("_") and len(item) > 3]
         for name in names[:3]:
             count += 1
-            with pytest.raises(AttributeError, match=rf"has no '{name}_'.*\b{name}\b"):
+            with pytest.raises(
+                AttributeError, match=rf"has no (?:attribute )?'{name}_'.*\b{name}\b"
+            ):
                 getattr(item, name + "_")
     assert count > 35
 
