@@ -44,7 +44,11 @@ def collect(rows: Iterable[Row]) -> list[Row]:
 
 def contact(peers: environment.Peers, scene: str, *, quick: bool) -> dict[str, list[Row]]:
     """A frictionless contact: tolerances on one grid, then grids under the one that suffices."""
-    grids = {"hertz": (64, 128, 256, 512, 1024), "wavy": (256, 1024), "rough": (256, 512, 1024)}
+    grids = {
+        "hertz": (64, 128, 256, 512, 1024),
+        "wavy": (256, 1024),
+        "rough": (256, 512, 1024, 2048),
+    }
     sizes = grids[scene]
     cells, sizes, seconds = (64, (64,), 0.2) if quick else (256, sizes, 4.0)
     ladder = collect(side_by_side.precision(peers, scene, cells, seconds / 8))
