@@ -93,6 +93,6 @@ def test_six_lines_from_file_to_loop(write: Callable[[Path], None], tmp_path: Pa
         warnings.simplefilter("ignore")
         truth = loop_of(fret.SurfaceMap(heights(), spacing=PITCH), path)
     for name, rel in (("dissipated", 0.01), ("delta_x", 0.003), ("real_area", 0.02)):
-        value, right = (float(of.dataset[name][-1]) for of in (result, truth))
+        value, right = (float(run.dataset[name][-1]) for run in (result, truth))
         assert value == pytest.approx(right, rel=rel), name
     assert int(result.dataset.spots[-1]) == int(truth.dataset.spots[-1])

@@ -60,24 +60,24 @@ def theorem(seed: int) -> Iterator[Row]:
     made = scene(z, pitch, friction=MU, **parts)
     result = fret.solve(made, path, error=True, progress=False)
     ends = [pressed(z, pitch, load, **parts) for load in (W, W - T / MU)]
-    full, less = (np.asarray(end.at(-1).p) for end in ends)
+    full, reduced = (np.asarray(end.at(-1).p) for end in ends)
     d, U, A = (
         [float(end.dataset[name][-1]) for end in ends]
         for name in ("delta_z", "elastic", "real_area")
     )
-    at, rows = result.at(-1), result.dataset
+    at, numbers = result.at(-1), result.dataset
     shift = MU * (d[0] - d[1])
     C = [load * d[k] - U[k] for k, load in enumerate((W, W - T / MU))]
     lost = 8 * (0.5 * T * shift - MU**2 * (d[0] * T / MU - C[0] + C[1]))
     bars = result.error_bars().sel(part="total")
     stick = float(bars.stick_ratio[-1])
-    dissipated = float(rows.dissipated[-2:].sum())
+    dissipated = float(numbers.dissipated[-2:].sum())
     yield {
         "T/(mu W)": T / (MU * W),
-        "q": float(np.abs(np.asarray(at.q_x) - MU * (full - less)).max() / (MU * full.max())),
-        "delta_x": abs(float(rows.delta_x[-1]) / shift - 1),
+        "q": float(np.abs(np.asarray(at.q_x) - MU * (full - reduced)).max() / (MU * full.max())),
+        "delta_x": abs(float(numbers.delta_x[-1]) / shift - 1),
         "loop": abs(dissipated / lost - 1),
-        "stick ratio": abs(float(rows.stick_ratio[-1]) - A[1] / A[0]) / stick,
+        "stick ratio": abs(float(numbers.stick_ratio[-1]) - A[1] / A[0]) / stick,
     }
 
 
@@ -115,15 +115,15 @@ def cycle(seed: int) -> Iterator[Row]:
 def main() -> None:
     """Print a line for each surface, and the largest ratios."""
     part, first, count = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
-    found: list[Row] = []
+    rows: list[Row] = []
     for seed in range(first, first + count):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             for row in {"theorem": theorem, "points": points, "cycle": cycle}[part](seed):
-                found.append(row)
+                rows.append(row)
                 print(seed, *(f"{k} {v:.3g}" for k, v in row.items()), flush=True)
-    for name in found[0]:
-        values = np.array([row[name] for row in found])
+    for name in rows[0]:
+        values = np.array([row[name] for row in rows])
         print(f"{name}: median {np.median(values):.3g}, largest {values.max():.3g}", end=", ")
         print(f"{np.mean(values <= MOST):.0%} below {MOST}")
 
