@@ -52,7 +52,7 @@ impl Line {
                 *sum += one;
             }
         }
-        let azimuth = principal_azimuth(shear);
+        let azimuth = principal_azimuth(shear).map(|azimuth| largest.snap_azimuth(azimuth));
         let main = Self::through(largest.centre, azimuth.unwrap_or(0.0));
         if largest.is_flat() {
             return vec![main];

@@ -177,6 +177,21 @@ impl Outline {
         (widths[largest], widths[smallest], angle(largest))
     }
 
+    /// Returns the direction of an axis of the grid \[rad\] for a direction that is as good as parallel to it:
+    /// over the contact their lines are less than half a cell apart. Other directions are returned as they are.
+    #[must_use]
+    pub fn snap_azimuth(&self, azimuth: f64) -> f64 {
+        let (sin, cos) = azimuth.sin_cos();
+        let half = self.half_width(azimuth);
+        if half * sin.abs() < 0.5 * self.grid.dy {
+            0.0
+        } else if half * cos.abs() < 0.5 * self.grid.dx {
+            std::f64::consts::FRAC_PI_2
+        } else {
+            azimuth
+        }
+    }
+
     /// Direction of the shear \[rad\], of the principal axis of [`Self::shear`]; `None` where the shear
     /// has no direction, as under a normal load alone.
     pub fn shear_azimuth(&self) -> Option<f64> {
