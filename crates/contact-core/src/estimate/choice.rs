@@ -13,6 +13,7 @@ use super::repeats::Repeats;
 use super::trial::Trial;
 use super::two_runs::PathError;
 use crate::error::Error;
+use crate::plan::Plan;
 use crate::scene::{Branch, LoadPath, Loads, PathGrid, RigidMotion, Scene, Spacing};
 
 /// Bounds of the order m, error ~ n^-m, computed from two rounds.
@@ -105,7 +106,8 @@ pub(super) fn by_trial(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene, E
 pub(super) fn begun(scene: &Scene) -> Scene {
     let mut begun = scene.clone();
     begun.settings.solver.tolerance = Some(scene.tolerance());
-    begin(&mut begun.path, scene.friction.mu > 0.0);
+    let couples = Plan::new(scene).coupling;
+    begin(&mut begun.path, scene.friction.mu > 0.0, couples);
     begun
 }
 
@@ -299,12 +301,16 @@ fn order(before: (usize, f64), now: (usize, f64)) -> f64 {
 
 /// The increments of the first round. Branches that start without contact have increments of equal
 /// radius; those that shear after a turn of the path a short first increment; those that continue
-/// the direction of the last one, as chords of a curve do, a single increment.
-fn begin(path: &mut LoadPath, friction: bool) {
+/// the direction of the last one, as chords of a curve do, a single increment. Without friction there is no
+/// shear, nor is there as long as bodies without coupling (`couples`) are only pressed: a single increment.
+fn begin(path: &mut LoadPath, friction: bool, couples: bool) {
     let mut touches = false;
+    let mut only_pressed = true;
     let last = path.branches.len() - 1;
     let steps: Vec<Loads> = (0..=last).map(|k| step(&path.branches, k)).collect();
     for (k, branch) in path.branches.iter_mut().enumerate() {
+        only_pressed &= branch.only_presses();
+        let friction = friction && (couples || !only_pressed);
         if branch.increments.is_none() {
             let goes_on = k > 0 && steps[k].projection_factor(&steps[k - 1]).is_some();
             if !touches {
