@@ -62,6 +62,48 @@ def test_spots_are_counted_in_the_dataset() -> None:
     assert float(d.lone_share) == pytest.approx(lone)
 
 
+def test_the_area_of_the_contact_is_the_real_one() -> None:
+    """The contact area is corrected for the faces of its cells, as the real area is."""
+    d = pressed(109).dataset.isel(increment=-1)
+    error = 0.5 * float(d.real_area_error)
+    assert float(d.contact_area) == pytest.approx(float(d.real_area), abs=error)
+    assert float(d.contact_radius) == pytest.approx(np.sqrt(float(d.contact_area) / np.pi))
+
+
+def test_slopes_are_those_of_the_heights() -> None:
+    """Differences of neighbouring heights within the nominal contact, without the ball."""
+    z, pitch, W = surface(109)
+    d = pressed(109).dataset.isel(increment=-1)
+    x = pitch * (np.arange(len(z)) - (len(z) - 1) / 2)
+    a = (3 * W * R / (4 * MODULUS)) ** (1 / 3)
+    inside = (np.hypot(x[:, None], x[None, :]) <= a)[:-1, :-1]
+    squares = (np.diff(z, axis=0)[:, :-1] ** 2 + np.diff(z, axis=1)[:-1] ** 2) / pitch**2
+    assert float(d.rms_slope) == pytest.approx(np.sqrt(squares[inside].mean()), rel=1e-3)
+    assert float(d.slope_length) == pytest.approx(pitch)
+
+
+def test_like_bodies_are_pressed_in_one_increment() -> None:
+    """Without shear the path does not matter; unlike bodies and later shear need increments."""
+    z, pitch, W = band_limited(1, 48)
+    steel, made = fret.Elastic(E=210e9, nu=0.3), scene(z, pitch, friction=0.4)
+    unlike = made.replace(body2=fret.Body(fret.Elastic(E=100e9, nu=0.3)))
+    assert made.body1.substrate == steel
+    pressing = fret.LoadPath.start().normal(W)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        counts = [
+            np.bincount(fret.solve(pair, path, progress=False).dataset.branch_of_increment.values)
+            for pair, path in (
+                (made, pressing),
+                (made, pressing.tangential(0.2 * W)),
+                (unlike, pressing),
+            )
+        ]
+    assert counts[0].tolist() == [1]
+    assert counts[1][0] == 1 < counts[1][1]
+    assert counts[2][0] > 10
+
+
 def test_what_is_said_of_asperities_names_them() -> None:
     """A contact of asperities of one cell is solved; the warning names what depends on them."""
     z, pitch, W = surface(108)

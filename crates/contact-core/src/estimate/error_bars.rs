@@ -195,7 +195,7 @@ fn bars(
         let least = match n {
             STICK_RATIO => ring,
             DISSIPATED => energy_of_ring(scene, fine, ring),
-            CONTACT_RADIUS if scene.is_uneven() => radius_of_spots(fine),
+            CONTACT_RADIUS if scene.is_uneven() => radius_of_spots(scene, fine),
             CONTACT_RADIUS => rim(scene),
             _ => 0.0,
         };

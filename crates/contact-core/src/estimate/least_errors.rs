@@ -115,12 +115,17 @@ pub(super) fn energy_of_ring(scene: &Scene, fine: &BranchSummary, ring: f64) -> 
     RING_ENERGY * whole * ring * (2.0 * slips + ring)
 }
 
-/// Error of the contact radius by the cells along the border of the spots, which count whole \[m\].
-pub(super) fn radius_of_spots(fine: &BranchSummary) -> f64 {
+/// Error of the contact radius by the cells along the border of the spots \[m\]. In plane strain these
+/// count whole.
+pub(super) fn radius_of_spots(scene: &Scene, fine: &BranchSummary) -> f64 {
     let (spots, radius) = (&fine.spots, fine.contact_radius);
-    let whole = spots.whole_cells.max(f64::MIN_POSITIVE);
-    let off = spots.whole_cells - spots.real_area() + spots.real_area_error();
-    0.5 * radius * off / whole
+    let area = spots.real_area().max(f64::MIN_POSITIVE);
+    let whole = if scene.grid.plane_strain {
+        spots.whole_cells - spots.real_area()
+    } else {
+        0.0
+    };
+    0.5 * radius * (whole + spots.real_area_error()) / area
 }
 
 /// Uncertainty of the place of the rim \[m\].

@@ -190,7 +190,7 @@ pub struct Yield {
 /// Mean of (true area - area of whole cells) over the area of the cells along the border, one for each face
 /// between a cell in contact and one that is not: -(pi - 1 + ln 2)/24 (V. A. Yastrebov, G. Anciaux,
 /// J.-F. Molinari, Tribology Int. 114 (2017) 161-171).
-const EDGE: f64 = (std::f64::consts::PI - 1.0 + std::f64::consts::LN_2) / 24.0;
+pub(super) const EDGE: f64 = (std::f64::consts::PI - 1.0 + std::f64::consts::LN_2) / 24.0;
 /// Error of the area so corrected, over the area of the cells along the border.
 const EDGE_ERROR: f64 = 0.06;
 
@@ -212,6 +212,13 @@ pub struct Spots {
     pub nominal_area: f64,
     /// Gap between the surfaces, mean over the nominal contact \[m\].
     pub mean_gap: f64,
+    /// Root mean square of the slopes of the gap between the undeformed surfaces, without those of the
+    /// shapes' curvature, over the nominal contact; between neighbouring cells. Zero for even surfaces.
+    #[serde(default)]
+    pub rms_slope: f64,
+    /// Distance of the points between which it was taken \[m\].
+    #[serde(default)]
+    pub slope_length: f64,
 }
 
 impl Spots {

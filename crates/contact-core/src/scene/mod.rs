@@ -47,6 +47,7 @@ pub use load_path::{
 pub use loads::{Loads, PrescribedMotions};
 pub use missing::Missing;
 pub use motion::{Prescribed, RigidMotion};
+pub(crate) use nominal::Nominal;
 pub use number_files::{FileOfNumbers, decode_any as text_of_numbers};
 pub use plasticity::{BACK_STRESSES, Plastic};
 pub use residual_stress::ResidualStress;

@@ -169,6 +169,18 @@ pub const SCALARS: &[Scalar] = &[
         "normal force over the area of the cells in contact",
         |i| i.spots.mean_pressure(i.point.loads.W),
     ),
+    real(
+        "rms_slope",
+        "1",
+        "slopes of the gap between undeformed uneven surfaces, root mean square over the nominal contact",
+        |i| i.spots.rms_slope,
+    ),
+    real(
+        "slope_length",
+        "m",
+        "distance of the points between which the slopes were taken",
+        |i| i.spots.slope_length,
+    ),
     real("p_max", "Pa", "largest pressure", |i| i.p_max),
     real("q_max", "Pa", "largest shear traction", |i| i.q_max),
     real(

@@ -1,8 +1,9 @@
 //! Sizes of the spots of a contact, and the mean gap between the surfaces.
 
-use crate::cells::sums;
+use crate::cells::{Lattice, sums};
 use crate::march::results::Spots;
 use crate::march::setup::Setup;
+use crate::scene::Nominal;
 use crate::solvers::Interface;
 use crate::solvers::intermediate::AlternationInfo;
 use crate::zones::SpotCount;
@@ -36,5 +37,41 @@ pub(super) fn spots(
         lone_share: count.lone / count.cells.max(1.0),
         nominal_area: nominal.area,
         mean_gap: if cells > 0.0 { gap / cells } else { 0.0 },
+        rms_slope: if scene.is_uneven() {
+            rms_slope(setup, &nominal)
+        } else {
+            0.0
+        },
+        slope_length: if scene.grid.plane_strain {
+            scene.grid.dx
+        } else {
+            cell.sqrt()
+        },
     }
+}
+
+/// Root mean square of the slopes of the gap between neighbouring cells of the nominal contact, without those
+/// of the curvature of the shapes.
+fn rms_slope(setup: &Setup<'_>, nominal: &Nominal) -> f64 {
+    let (scene, geometry) = (&setup.problem.scene, setup.geometry);
+    let (arms, h, grid) = (&geometry.arms, &geometry.h_init, &geometry.grid);
+    let rows = Lattice::new(grid, setup.problem.plan.mirror).rows();
+    let [upper, lower] = [&scene.body1, &scene.body2].map(|body| body.shape.curvature());
+    let [k_xx, k_xy, k_yy] = [0, 1, 2].map(|n| upper[n] + lower[n]);
+    let [squares, cells] = sums([&h[..]], |n, [here]| {
+        let [x, y] = [arms.x[n] * arms.length, arms.y[n] * arms.length];
+        let is_last_row = rows > 1 && n % rows + 1 == rows;
+        if n + rows >= h.len() || is_last_row || !nominal.covers([x, y]) {
+            return [0.0; 2];
+        }
+        let (x_m, y_m) = (x + 0.5 * grid.dx, y + 0.5 * grid.dy);
+        let s_x = (h[n + rows] - here) / grid.dx - (k_xx * x_m + k_xy * y);
+        let s_y = if rows > 1 {
+            (h[n + 1] - here) / grid.dy - (k_xy * x + k_yy * y_m)
+        } else {
+            0.0
+        };
+        [s_x * s_x + s_y * s_y, 1.0]
+    });
+    (squares / cells.max(1.0)).sqrt()
 }
