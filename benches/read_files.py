@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import struct
 import subprocess
 import sys
@@ -145,11 +146,14 @@ FORMATS: dict[str, tuple[Callable[..., None], Callable[..., Any], Callable[..., 
 }
 
 
-def read_here(kind: str, path: Path, small: Path, *, by_pyfret: bool) -> None:
+def read_here(kind: str, path: Path, small: Path, *, by_pyfret: bool, cold: bool) -> None:
     """Read a file after a small one of its format; print time [s] and memory [bytes] as JSON."""
     read = FORMATS[kind][2 if by_pyfret else 1]
     read(small)
     held = peak_memory()
+    if cold:
+        with path.open("rb") as file:
+            os.posix_fadvise(file.fileno(), 0, 0, os.POSIX_FADV_DONTNEED)
     begin, used = time.perf_counter(), time.process_time()
     content = read(path)
     seconds, processor = time.perf_counter() - begin, time.process_time() - used
@@ -158,18 +162,20 @@ def read_here(kind: str, path: Path, small: Path, *, by_pyfret: bool) -> None:
     del content
 
 
-def measure_format(kind: str, folder: Path, count: int) -> list[str]:
+def measure_format(kind: str, folder: Path, count: int, *, cold: bool) -> list[str]:
     """Read a format by its library and by pyfret in turn; return a row of the table."""
     path, small = folder / f"large.{kind}", folder / f"small.{kind}"
     write = FORMATS[kind][0]
     write(path, count)
+    with path.open("rb") as file:
+        os.fsync(file.fileno())
     write(small, 64 if kind != "tdms" else 10 * CYCLE)
     least: dict[bool, dict[str, float]] = {False: {}, True: {}}
     for _ in range(TURNS):
         for by_pyfret in (False, True):
             command = [sys.executable, __file__, "--read", kind, str(path), str(small)]
             done = subprocess.run(
-                [*command, *(["--pyfret"] if by_pyfret else [])],
+                [*command, *["--pyfret"] * by_pyfret, *["--cold"] * cold],
                 capture_output=True,
                 text=True,
                 check=True,
@@ -200,17 +206,21 @@ def main() -> None:
     parser.add_argument("--format", nargs="+", choices=FORMATS, default=list(FORMATS))
     parser.add_argument("--read", nargs=3, help=argparse.SUPPRESS)
     parser.add_argument("--pyfret", action="store_true", help=argparse.SUPPRESS)
+    parser.add_argument("--cold", action="store_true", help="read from the disk, not from memory")
     options = parser.parse_args()
     if options.read:
         kind, path, small = options.read
-        read_here(kind, Path(path), Path(small), by_pyfret=options.pyfret)
+        read_here(kind, Path(path), Path(small), by_pyfret=options.pyfret, cold=options.cold)
         return
     titles = ["format", "library, processor [s]", "pyfret, processor [s]", "ratio of processor"]
     titles += ["ratio of time", "memory of the library [maps]", "memory of pyfret [maps]"]
     with tempfile.TemporaryDirectory() as folder:
         rows = [
             measure_format(
-                kind, Path(folder), options.samples if kind == "tdms" else options.points
+                kind,
+                Path(folder),
+                options.samples if kind == "tdms" else options.points,
+                cold=options.cold,
             )
             for kind in options.format
         ]

@@ -264,7 +264,7 @@ def show_everything(user: User) -> None:
     user.view.locator("#files .card").nth(2).wait_for(state="attached", timeout=PATIENCE)
     user.go("answers")
     user.click("[data-event=wear]")
-    user.view.wait_for_selector("#jobs .ended", timeout=PATIENCE)
+    user.view.wait_for_selector("#jobs .ended", timeout=4 * PATIENCE)
     user.view.wait_for_selector("#crack table", timeout=4 * PATIENCE)
     user.settle()
 
