@@ -30,9 +30,17 @@ COMPARED = 64
 def nearest_names(name: str, known: Iterable[str], most: int) -> list[str]:
     """Return the known names that are synonyms of a name, or else the most similar ones."""
     name = name[:COMPARED]
-    lower = {candidate.lower(): candidate for candidate in known}
-    similar = [lower[match] for match in get_close_matches(name.lower(), lower, n=most)]
-    return (meant(name, list(lower.values())) or similar)[:most]
+    cases: dict[str, list[str]] = {}
+    for candidate in known:
+        cases.setdefault(candidate.lower(), []).append(candidate)
+    # Of names that differ in their case alone, such as a class and a function, the one that begins
+    # as the name comes first.
+    similar = [
+        candidate
+        for match in get_close_matches(name.lower(), cases, n=most)
+        for candidate in sorted(cases[match], key=lambda case: case[:1] != name[:1])
+    ]
+    return (meant(name, [c for group in cases.values() for c in group]) or similar)[:most]
 
 
 def unknown_keyword(call: str, keywords: Iterable[str], known: Sequence[str]) -> TypeError | None:
