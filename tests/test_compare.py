@@ -95,7 +95,9 @@ def test_numbers_are_those_of_single_runs(compared: tuple[fret.study.Comparison,
         )
         selected = computed.sel(candidate=name)
         assert float(selected.energy) == pytest.approx(float(result.loops().dissipated[-1]))
-        least = result.load_factors(entry.yields, residual=entry.residual).least("von_mises")
+        least = result.load_factors(entry.yield_stresses, residual=entry.residual).least(
+            "von_mises"
+        )
         assert float(selected.first_yield) == pytest.approx(least.value)
         ends = np.flatnonzero(np.diff(result.dataset.branch_of_increment.values, append=-1)) + 1
         largest = max(

@@ -41,7 +41,7 @@ class Parser(argparse.ArgumentParser):
         """The usage in a line."""
         needed = [a for a in self._actions if a.option_strings and a.required]
         needed_options = [f"{a.option_strings[-1]} {value(a)}" for a in needed]
-        places = [value(a) for a in self._places()]
+        places = [value(a) for a in self._positionals_alone()]
         options = [] if self._commands() is not None else ["[OPTIONS]"]
         command = [] if options else ["<COMMAND>"]
         words = ["Usage:", self.prog, *options, *needed_options, *places, *command]
@@ -55,8 +55,8 @@ class Parser(argparse.ArgumentParser):
         if commands is not None:
             rows = [(f"  {a.dest}", sentence(a.help or "")) for a in commands]
             parts += ["Commands:", *table(rows), ""]
-        elif self._places():
-            rows = [(f"  {value(a)}", meaning(a)) for a in self._places()]
+        elif self._positionals_alone():
+            rows = [(f"  {value(a)}", meaning(a)) for a in self._positionals_alone()]
             parts += ["Arguments:", *table(rows), ""]
         options = [a for a in self._actions if a.option_strings]
         # As the others have it, help is the last.
@@ -78,7 +78,8 @@ class Parser(argparse.ArgumentParser):
         if message and stream is not None:
             stream.write(message)
 
-    def _places(self) -> list[argparse.Action]:
+    def _positionals_alone(self) -> list[argparse.Action]:
+        """Return the positional arguments, without commands."""
         return [
             a
             for a in self._actions

@@ -76,8 +76,8 @@ class LoadFactors(Labelled, Figured):
             shown = repr(of) if isinstance(of, str) else f"<{type(of).__name__}>"
             raise ValueError(f"of = {shown}: must be one of {', '.join(get_args(Factor))}")
 
-    def use(self, of: Factor) -> xr.DataArray:
-        """Give load over limit, the inverse of a factor: 1 where the limit is reached."""
+    def utilisation(self, of: Factor) -> xr.DataArray:
+        """Return load over limit, the inverse of a factor: 1 where the limit is reached."""
         self._check(of)
         return 1.0 / self.dataset[of]
 
@@ -93,7 +93,7 @@ class LoadFactors(Labelled, Figured):
 
     def _search_least(self, layer: int, of: Factor) -> Extremum:
         """Search the least factor of a layer."""
-        use_of_layer = self.use(of).isel(depth=self.dataset.layer.values == layer)
+        use_of_layer = self.utilisation(of).isel(depth=self.dataset.layer.values == layer)
         values = use_of_layer.values.reshape(
             -1, use_of_layer.shape[2] if use_of_layer.ndim > 2 else 1
         )

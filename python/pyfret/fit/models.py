@@ -103,7 +103,7 @@ def interpolate_smoothly(x: NDArray[np.float64], y: NDArray[np.float64]) -> Curv
 
 
 def loops_model(data: Loops) -> Model:
-    """Loops: the closed cycle between the ends of the measured shift, under the scene's W."""
+    """Build the model of measured loops: a closed cycle between the measured turns, under W."""
     cycles = range(int(data.cycle.max()) + 1)
     many = len(cycles) > 1 or (data.turns is not None and len(data.turns) > 1)
     drifts = data.drifts if data.drifts is not None else many

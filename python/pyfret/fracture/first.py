@@ -84,7 +84,7 @@ class FailureOrder(NamedTuple):
         return f"FailureOrder({', '.join(self._sentences())}; first: {self.first or 'none'})"
 
     def summary(self) -> str:
-        """The three with their errors, a line each, which fails first, and what a crack does."""
+        """Describe the loads of film, interface and substrate, which fails first, and the crack."""
         crack = [] if self.arrest is None else [f"a crack {self.arrest.describe()}"]
         return "\n".join([*self._sentences(), f"first to fail: {self.first or 'none'}", *crack])
 

@@ -181,7 +181,8 @@ class Ladder:
         points: list[list[float]] = []
         counts: list[float] = []
 
-        def go(u: float, v: float, count: float) -> None:
+        def add_point(u: float, v: float, count: float) -> None:
+            """Append a target of the channels, and the number of loops it stands for."""
             others = companions.values(u, v)
             points.append([u, *(others[name] for name in names[1:])])
             counts.append(count)
@@ -192,14 +193,16 @@ class Ladder:
             for k in range(1, steps + 1):
                 angle = start + np.pi * k / steps
                 u = mean + amplitude * (np.cos(angle) if companions.turns else (1 - 2 * falling))
-                go(float(u), float(amplitude * np.sin(angle)) if companions.turns else 0.0, count)
+                add_point(
+                    float(u), float(amplitude * np.sin(angle)) if companions.turns else 0.0, count
+                )
 
         before = len(lead_in.branches)
         branches, tops, bottoms, quarters = [], [], [], []
         is_top = True
         for n, (amplitude, mean, count) in enumerate(levels.tolist()):
             is_top = not is_top if n else True
-            go(mean + amplitude if is_top else mean - amplitude, 0.0, 0.0)
+            add_point(mean + amplitude if is_top else mean - amplitude, 0.0, 0.0)
             for _ in range(settling if n == 0 else 0):
                 half(amplitude, mean, 0.0, falling=is_top)
                 half(amplitude, mean, 0.0, falling=not is_top)
@@ -216,11 +219,11 @@ class Ladder:
             quarters.append(passes if is_top else passes[::-1])
         if len(levels) > 1:
             # Back to where the loops began.
-            go(float(levels[0, 1] + levels[0, 0]), 0.0, 0.0)
+            add_point(float(levels[0, 1] + levels[0, 0]), 0.0, 0.0)
         counted = len(points)
 
         def lead(u: float) -> int:
-            go(u, 0.0, 0.0)
+            add_point(u, 0.0, 0.0)
             return before + len(points) - 1
 
         grid = None

@@ -127,7 +127,7 @@ def stretch_channels(
         places = block[: TURNS + 1] if block.size > TURNS + 1 else block[:-1]
     else:
         d = loops.dataset
-        chosen = loops_of_every_size(loops)
+        chosen = loops_to_solve(loops)
         ends = [d[name].values[chosen].astype(int) for name in ("first", "last")]
         places = np.unique(np.concatenate([*ends, block[:1]]))
         size = history.channels[history.channel].size
@@ -135,8 +135,8 @@ def stretch_channels(
     return {name: values[places] for name, values in history.channels.items()}
 
 
-def loops_of_every_size(loops: CountedLoops) -> NDArray[np.int64]:
-    """Return the rows of the largest loop and of others with equal parts of range^4 between."""
+def loops_to_solve(loops: CountedLoops) -> NDArray[np.int64]:
+    """Return the rows of the loops to solve: the largest, and others of equal parts of range^4."""
     d = loops.dataset
     order = np.argsort(-d["range"].values, kind="stable")
     weight = np.cumsum(d["count"].values[order[1:]] * d["range"].values[order[1:]] ** EXPONENT)
@@ -153,7 +153,7 @@ def series_of_loops(loops: CountedLoops) -> NDArray[np.float64]:
     Large and small ones take turns, so that small loops lie on branches of both directions.
     """
     d = loops.dataset
-    chosen = loops_of_every_size(loops)
+    chosen = loops_to_solve(loops)
     inner = chosen[1:]
     mixed = np.empty_like(inner)
     mixed[0::2], mixed[1::2] = inner[: (inner.size + 1) // 2], inner[(inner.size + 1) // 2 :]

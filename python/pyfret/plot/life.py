@@ -149,7 +149,7 @@ def load_factor_map(
         As in :func:`criterion_map`.
     """
     least = factors.least(of)
-    shown = factors.use(of).assign_attrs(factors.dataset.attrs)
+    shown = factors.utilisation(of).assign_attrs(factors.dataset.attrs)
     name = {"von_mises": "First yield, von Mises", "tresca": "First yield, Tresca"}
     label = f"{name.get(of, 'Shakedown')}: load over limit"
     ax = _contours(shown, label, units, levels, ax, depth=depth, limit=1.0)

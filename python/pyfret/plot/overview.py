@@ -48,7 +48,7 @@ def overview(shown: Run | State, *, units: Units = "auto", width: Width | None =
     apart(figure)
     first, second, third, fourth, fifth, sixth = grid.ravel()
     names = ["", "tractions", "pressure", "shear", "stick and slip", "stress"]
-    names[0] = _history(shown, first, units)
+    names[0] = _draw_loading(shown, first, units)
     _tractions(second, at, by)
     if at.scene.grid.plane_strain:
         names[1:5] = "tractions", "stick and slip", "slip", "stick area"
@@ -76,8 +76,8 @@ def overview(shown: Run | State, *, units: Units = "auto", width: Width | None =
     return figure
 
 
-def _history(shown: Run | State, ax: Axes, units: Units) -> str:
-    """The loop of a run; its loads, where it only presses; the slip of an increment: its name."""
+def _draw_loading(shown: Run | State, ax: Axes, units: Units) -> str:
+    """Draw the loop or the loads of a run, or the slip of an increment; return what was drawn."""
     if not isinstance(shown, Run):
         if shown.scene.grid.plane_strain:
             shear_streamlines(shown, units=units, ax=ax)

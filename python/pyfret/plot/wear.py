@@ -177,7 +177,7 @@ def wear_history(result: WearResult, *, width: Width | None = None, ax: Axes | N
 def wear_loops(result: WearResult, *, width: Width | None = None, ax: Axes | None = None) -> Axes:
     """Friction loops at the first and at the last block of cycles, along x or y.
 
-    The axis has the largest force.
+    It is the axis along which the force is largest.
     """
     ax = axes(ax)
     d, direction = result.dataset, result.direction

@@ -78,7 +78,7 @@ class CrackSection:
         }
 
     def numbers(self) -> dict[str, Any]:
-        """K over the cycle at the length where the crack stops, or the longest; the diagram."""
+        """Return verdict, K over the cycle at the arrest (or longest) length, and diagram."""
         arrest = self.found()
         length = arrest.tip if arrest else float(self.cracks.lengths[-1])
         at_length = self.cracks.at_length(length)

@@ -139,7 +139,7 @@ def tabulated(
     grid: Grid,
     units: Mapping[str, str],
 ) -> xr.Dataset:
-    """Rows of :data:`LOOP` as a dataset, with units of another kind of motion."""
+    """Return numbers of :data:`LOOP` over `dim`; `units` replaces units, N by N m in torsion."""
     return xr.Dataset(
         {
             name: (

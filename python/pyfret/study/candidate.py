@@ -86,8 +86,8 @@ class Candidate:
         return layers
 
     @property
-    def yields(self) -> list[float | Material | None]:
-        """The yield stress of every layer; None where it is not given."""
+    def yield_stresses(self) -> list[float | Material | None]:
+        """Return the yield stress of every layer; None where it is not given."""
         if self.s_y is not None:
             s_y = self.s_y
             if not isinstance(s_y, Sequence | Material):

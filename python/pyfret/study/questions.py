@@ -144,7 +144,7 @@ def tension(result: Result, candidate: Candidate, duty: Duty) -> Answered:
 def first_yield(result: Result, candidate: Candidate, duty: Duty) -> Answered:
     """Find the least load factor of first yield over the cycle, by von Mises' condition."""
     factors = result.load_factors(
-        candidate.yields, body_number=duty.body_number, residual=candidate.residual
+        candidate.yield_stresses, body_number=duty.body_number, residual=candidate.residual
     )
     least = factors.least("von_mises")
     places = {"first_yield_layer": float(least.layer), "first_yield_z": least.z}
@@ -153,7 +153,7 @@ def first_yield(result: Result, candidate: Candidate, duty: Duty) -> Answered:
 
 def missing_yield_stress(candidate: Candidate, duty: Duty, scene: Scene) -> str:
     """Return the missing yield stress, in words."""
-    return "" if any(s_y is not None for s_y in candidate.yields) else "s_y of a layer"
+    return "" if any(s_y is not None for s_y in candidate.yield_stresses) else "s_y of a layer"
 
 
 def adhesion(result: Result, candidate: Candidate, duty: Duty) -> Answered:

@@ -295,7 +295,8 @@ def find_threshold(
 def threshold_range(margin: LifeRange, load: float, slope: float) -> tuple[float, float]:
     """Return the range of a threshold, for a margin that is a power of the load.
 
-    A margin m of the range stands for specimens whose threshold is off by (m/best)^(-1/slope).
+    `load` is the threshold of the mean material, `slope` is d ln(margin)/d ln(load).
+    Specimens with the margin m have the threshold load (m/best)^(-1/slope).
     """
     power = -1.0 / math.copysign(max(abs(slope), 0.05), slope)
     ends = [load * (m / margin.best) ** power for m in (margin.low, margin.high)]

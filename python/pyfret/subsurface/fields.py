@@ -39,10 +39,12 @@ __all__ = ["Stress", "displacement", "envelope", "stress", "write_volume"]
 MOST_DEPTHS = 1_000_000
 
 
-def choose_depths(body: Body, z: ArrayLike | None, length: float) -> tuple[list[float], list[int]]:
-    """Depths with their layers: those given, or those that the layers ask for."""
+def choose_depths(
+    body: Body, z: ArrayLike | None, half_width: float
+) -> tuple[list[float], list[int]]:
+    """Return depths [m] and their layers: `z`, or chosen from layers and half-width."""
     if z is None:
-        return _core.chosen_depths(body, a=length, deepest=2.0 * length)
+        return _core.chosen_depths(body, a=half_width, deepest=2.0 * half_width)
     wanted_depths = np.atleast_1d(plain(z, "z"))
     if wanted_depths.size > MOST_DEPTHS:
         raise ValueError(f"z has {wanted_depths.size} depths: must be at most {MOST_DEPTHS}")

@@ -149,6 +149,7 @@ class PlasticState:
 
     @cached_property
     def _columns(self) -> list[NDArray[np.float64]]:
+        """Columns :data:`YIELDED` of the yielded points of this body."""
         return _strained(self._state, self.body_number).columns
 
     @cached_property

@@ -75,7 +75,7 @@ class Stress(Labelled, Figured):
 
     @quantities
     def measure(self, name: str) -> xr.DataArray:
-        """Give what follows from the stress by its name."""
+        """Return a measure of the stress by its name, such as ``"von_mises"``."""
         if name in COMPONENTS:
             return self.dataset[name]
         units, meaning = LABELS[name]

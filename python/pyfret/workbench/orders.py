@@ -19,8 +19,8 @@ __all__ = ["ORDERS", "start_run"]
 MOST_VALUES = 60
 
 
-def order_wear(context: Context, values: dict[str, Any]) -> tuple[str, dict[str, Any]]:
-    """Order a run of wear."""
+def request_wear(context: Context, values: dict[str, Any]) -> tuple[str, dict[str, Any]]:
+    """Return title and settings of the run of wear in the form."""
     order = {
         "body": 1 if values.get("wear-body") == "1" else 2,
         "alpha": positive(values, "wear-alpha", "wear coefficient"),
@@ -29,8 +29,8 @@ def order_wear(context: Context, values: dict[str, Any]) -> tuple[str, dict[str,
     return f"Wear after {order['cycles']:.4g} cycles", order
 
 
-def order_study(context: Context, values: dict[str, Any]) -> tuple[str, dict[str, Any]]:
-    """Order a study of one number over one field."""
+def request_study(context: Context, values: dict[str, Any]) -> tuple[str, dict[str, Any]]:
+    """Return title and settings of the study of one result over one field of the form."""
     field = find_field(context.scene, str(values.get("study-key")))
     if field is None:
         raise ValueError("the field of the study is not in this scene: choose it again")
@@ -79,7 +79,7 @@ def positive(values: dict[str, Any], key: str, name: str) -> float:
 
 
 #: Background runs by the event that starts them.
-ORDERS = {"wear": order_wear, "study": order_study, "fit": order_fit}
+ORDERS = {"wear": request_wear, "study": request_study, "fit": order_fit}
 
 
 def start_run(context: Context, event: Event) -> Job:
