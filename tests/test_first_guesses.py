@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import pickle
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
@@ -170,7 +171,7 @@ def test_a_module_that_is_called_names_its_functions(name: str) -> None:
     expected = {"fit": "unknown", "study": "scene = 1"}.get(name, f"fret.{name}")
     with pytest.raises((TypeError, ValueError), match=expected):
         module(1, {})
-    with pytest.raises(AttributeError, match="no attribute 'nonsense'"):
+    with pytest.raises(AttributeError, match="has no 'nonsense'"):
         module.nonsense  # noqa: B018
 
 
@@ -217,3 +218,18 @@ def test_neighbouring_residuals_are_told_from_scatter() -> None:
     assert abs(neighbour_correlation(scatter)) < 0.2
     assert neighbour_correlation(scatter + 3 * np.sin(np.linspace(0, 20, 400))) > 0.5
     assert neighbour_correlation(scatter[:4]) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("guess", "says"),
+    [
+        (lambda: fret.fatigue.Material("Ti-6Al-4V"), r"fatigue.Materials\(\)\['Ti-6Al-4V'\]"),  # type: ignore[call-arg]
+        (lambda: fret.LoadPath.start().force(T_x=[1.0, 2.0]), r"T_x.*waypoints\(T_x=\[...\]"),  # type: ignore[arg-type]
+        (lambda: fret.LoadPath.start().force(W=np.ones(2)), r"W: .*waypoints\(W=\[...\]"),  # type: ignore[arg-type]
+        (lambda: fret.study.Study("study.zarr"), r"fret.study.run\(scene.*fret.open\(path\)"),  # type: ignore[arg-type]
+        (lambda: fret.Result({}), r"fret.open\(path\)"),  # type: ignore[arg-type]
+    ],
+)
+def test_a_wrong_argument_is_answered_with_the_call(guess: Callable[[], object], says: str) -> None:
+    with pytest.raises(TypeError, match=says):
+        guess()

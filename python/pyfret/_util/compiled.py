@@ -10,6 +10,8 @@ from collections.abc import Callable, Sequence
 from types import BuiltinFunctionType, MethodDescriptorType
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from pyfret._util.keywords import check_places, nearest_names, unknown_keyword
 from pyfret._util.names import meant
 from pyfret._util.refusals import refuse_clearly
@@ -162,6 +164,19 @@ def refuse_call(
     name: str, parameters: list[inspect.Parameter], values: Sequence[Any], keywords: dict[str, Any]
 ) -> TypeError | None:
     """Return the refusal of arguments whose names or whose number are wrong."""
+    # The first value of a constructor is the class.
+    if name == "Material" and len(values) == 2 and not keywords:
+        return TypeError(
+            f"Material takes a name and numbers; {str(values[1])[:60]!r} of the table is "
+            f"fret.fatigue.Materials()[{str(values[1])[:60]!r}]"
+        )
+    if name == "LoadPath.force":
+        for key, value in keywords.items():
+            if not isinstance(value, str) and hasattr(value, "__len__") and np.ndim(value):
+                several = f"LoadPath.waypoints({key}=[...], increments=PerRange(40))"
+                return TypeError(
+                    f"{key}: must be a number, for one branch; {several} takes several"
+                )
     if not any(parameter.kind is parameter.VAR_KEYWORD for parameter in parameters):
         keys = [parameter.name for parameter in parameters if parameter.kind in NAMED]
         keys = [key for key in keys if key != "self"]

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from pyfret._util.attributes import dataset_attribute, dataset_names
 from pyfret._util.csv_table import Tabular
-
-if TYPE_CHECKING:
-    import xarray as xr
+from pyfret._util.lazy import xr
+from pyfret._util.parameter import MADE
 
 __all__ = ["Labelled"]
 
@@ -20,6 +19,10 @@ class Labelled(Tabular):
     """
 
     def __init__(self, dataset: xr.Dataset) -> None:
+        if not isinstance(dataset, xr.Dataset):
+            name = type(self).__name__
+            made = MADE.get(name, "returned by a function")
+            raise TypeError(f"dataset: a {name} is {made}; fret.open(path) opens a saved one")
         self._dataset = dataset
 
     @property

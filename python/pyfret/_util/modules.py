@@ -67,7 +67,7 @@ class PublicModule(ModuleType):
 
     def __getattr__(self, name: str) -> Any:
         """Refuse a name that the module does not have, with the nearest public one."""
-        message = f"module {self.__name__!r} has no attribute {name!r}"
+        message = f"module {self.__name__!r} has no {name!r}"
         if name.startswith("_"):
             raise AttributeError(message)
         raise AttributeError(message + name_hint(name, self.__name__.rpartition(".")[2]))
