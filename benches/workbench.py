@@ -35,10 +35,10 @@ STEPS = {
 }
 
 
-def has_text(view: Any, selector: str, start: str, before: str) -> bool:
-    """Check that an element has a text which begins so, and is not the one before."""
+def has_text(view: Any, selector: str, words: str, before: str) -> bool:
+    """Check that an element has a text with these words, and not the one before."""
     text = str(view.inner_text(selector)).strip()
-    return text.startswith(start) and text != before
+    return words in text and text != before
 
 
 def used_by(server: psutil.Process) -> float:
