@@ -106,6 +106,9 @@ def main() -> None:
             server = psutil.Process(process.pid)
             rows = [["page", f"{time.perf_counter() - begin:.2f}", f"{used_by(server):.2f}"]]
             user.settle()
+            # The answers to the first contact end before the first change.
+            user.go("answers")
+            user.view.wait_for_selector("#crack table", timeout=PATIENCE)
             values = [f"{0.4 + 0.03 * n:.2f}" for n in range(1, turns + 1)]
             changes = [change_number(user, server, value) for value in values]
             for step in STEPS:
