@@ -58,7 +58,8 @@ def change_number(user: User, server: psutil.Process, value: str) -> dict[str, t
           const look = () => {
             const state = document.getElementById('state').innerText;
             for (const name of ['preview', 'full answer'])
-              if (state.startsWith(name) && window.begun && !(name in window.changes))
+              if (state.startsWith(name) && window.begun && !(name in window.changes)
+                  && (name === 'preview' || 'preview' in window.changes))
                 window.changes[name] = performance.now() - window.begun;
           };
           new MutationObserver(look).observe(document.body,
