@@ -176,8 +176,8 @@ attributes!(Bond, self:
 ///
 /// Parameters
 /// ----------
-/// material : Elastic
-///     Material of the layer.
+/// material : Elastic, Material or str
+///     Material of the layer: also a row of the table, or its name, such as ``"TiN"``.
 /// thickness : float
 ///     Thickness [m], positive.
 /// bond : Bond
@@ -214,7 +214,7 @@ takes!(
 #[pymethods]
 impl Coating {
     #[new]
-    #[pyo3(signature = (material, *, thickness: "Thickness", bond = Bond(core::Bond::PERFECT), residual = None))]
+    #[pyo3(signature = (material: "Elastic | Material | str", *, thickness: "Thickness", bond = Bond(core::Bond::PERFECT), residual = None))]
     fn new(
         material: Elastic,
         #[pyo3(from_py_with = Given::thickness)] thickness: f64,

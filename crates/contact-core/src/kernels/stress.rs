@@ -119,7 +119,8 @@ impl Quantity<10, 6> for Stress {
         row >= 4
     }
 
-    /// Stress decays like 1/r^2: the reference is 1/(2 pi zeta^2), the largest value that a unit force causes.
+    /// Stress at the depth zeta is of the order of 1/zeta^2 below a unit force and decays like 1/r^2:
+    /// r times it is of the order of 1/zeta at most.
     fn error_scale(_: &Stack, zeta: f64) -> f64 {
         1.0 / zeta
     }

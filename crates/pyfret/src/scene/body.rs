@@ -15,7 +15,7 @@ use crate::residual_stress::{Profile, Shown, shown, text};
 ///
 /// Parameters
 /// ----------
-/// substrate : Elastic
+/// substrate : Elastic, Material or str
 ///     Material below the coatings.
 /// coatings : sequence of Coating
 ///     Layers from the surface down: ``coatings[0]`` is the outermost (default: none).
@@ -47,7 +47,7 @@ takes!(
 #[pymethods]
 impl Body {
     #[new]
-    #[pyo3(signature = (substrate, *, coatings = Coatings(Vec::new()), residual = None, shape = Shape::Flat(Flat {}), bulk_azimuth: "Angle | None" = None, bulk_neutral_depth: "Length | None" = None, hardness: "YieldStress | Material | str | None" = None))]
+    #[pyo3(signature = (substrate: "Elastic | Material | str", *, coatings = Coatings(Vec::new()), residual = None, shape = Shape::Flat(Flat {}), bulk_azimuth: "Angle | None" = None, bulk_neutral_depth: "Length | None" = None, hardness: "YieldStress | Material | str | None" = None))]
     fn new(
         substrate: Elastic,
         coatings: Coatings,
