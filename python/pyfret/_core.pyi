@@ -145,7 +145,7 @@ class Body:
 
     Parameters
     ----------
-    substrate : Elastic
+    substrate : Elastic, Material or str
         Material below the coatings.
     coatings : sequence of Coating
         Layers from the surface down: ``coatings[0]`` is the outermost (default: none).
@@ -173,7 +173,7 @@ class Body:
     def __new__(
         cls,
         /,
-        substrate: Elastic,
+        substrate: Elastic | Material | str,
         *,
         coatings: Coating | Sequence[Coating] = ...,
         residual: ArrayLike | None = None,
@@ -523,8 +523,8 @@ class Coating:
 
     Parameters
     ----------
-    material : Elastic
-        Material of the layer.
+    material : Elastic, Material or str
+        Material of the layer: also a row of the table, or its name, such as ``"TiN"``.
     thickness : float
         Thickness [m], positive.
     bond : Bond
@@ -540,7 +540,7 @@ class Coating:
     def __new__(
         cls,
         /,
-        material: Elastic,
+        material: Elastic | Material | str,
         *,
         thickness: Thickness,
         bond: Bond = ...,
@@ -1425,23 +1425,23 @@ class Friction:
     def __replace__(self, /, **changes: Any) -> Self: ...
     def __repr__(self, /) -> str: ...
     @property
+    def bed(self, /) -> tuple[float, float] | None:
+        """Coefficient of a thick bed of debris, and the thickness of the bed [m]."""
+    @property
     def history(self, /) -> tuple[History, list[tuple[float, float]]] | None:
         """Factor as a function of the history."""
     @property
     def is_constant(self, /) -> bool:
         """Whether it is the same everywhere and at all times, if not in all directions."""
     @property
-    def bed(self, /) -> tuple[float, float] | None:
-        """Coefficient of a thick bed of debris, and the thickness of the bed [m]."""
-    @property
     def kinetic(self, /) -> float | None:
         """Coefficient of cells that slipped in the increment before."""
     @property
-    def layers(self, /) -> list[float] | None:
-        """Coefficient of each layer that wear exposes."""
-    @property
     def law(self, /) -> Any | None:
         """The function that gives the coefficient; ``"own"`` if only that there is one is known."""
+    @property
+    def layers(self, /) -> list[float] | None:
+        """Coefficient of each layer that wear exposes."""
     @property
     def map(self, /) -> SurfaceMap | None:
         """Factor over the surface."""
@@ -1451,11 +1451,11 @@ class Friction:
     @property
     def mu_y(self, /) -> float | None:
         """Coefficient along y, if it is another."""
+    def replace(self, /, **changes: Any) -> Self:
+        """Return a copy with some of its parts exchanged, named as in the constructor."""
     @property
     def starved(self, /) -> float | None:
         """Coefficient where no oxygen arrives."""
-    def replace(self, /, **changes: Any) -> Self:
-        """Return a copy with some of its parts exchanged, named as in the constructor."""
     def words(self, /) -> list[tuple[str, float | None]]:
         """The law in words: names with their values, and facts without a value."""
 
@@ -2889,6 +2889,7 @@ class Scene:
         mu: FrictionCoefficient,
         T: Quantity | None = None,
         shift: Length | None = None,
+        sigma_B: BulkStress | None = None,
         cycles: int = 2,
         wear: Mapping[str, Any] | None = None,
         error: float = 0.02,
@@ -2910,6 +2911,9 @@ class Scene:
         T, shift : float, optional
             Amplitude of the tangential force [N], or of the shift of the bodies [m], along x
             (default: the ball is pressed alone).
+        sigma_B : float, optional
+            Amplitude of the bulk stress of the lower body along x [Pa], in phase with the
+            force or the shift (default: none).
         cycles : int
             Cycles of the force or of the shift (default 2).
         wear : dict, optional
@@ -2948,6 +2952,7 @@ class Scene:
         mu: FrictionCoefficient,
         T: Quantity | None = None,
         shift: Length | None = None,
+        sigma_B: BulkStress | None = None,
         cycles: int = 2,
         wear: Mapping[str, Any] | None = None,
         error: float = 0.02,
@@ -2964,7 +2969,7 @@ class Scene:
             Their radii [m] (default of the second: the first radius).
         angle : float
             Angle between the axes [rad], such as ``"90 deg"`` (default: a right angle).
-        W, mu, T, shift, cycles, wear, error, n, quiet
+        W, mu, T, shift, sigma_B, cycles, wear, error, n, quiet
             As in :func:`ball_on_flat`.
         """
     @staticmethod
@@ -2977,6 +2982,7 @@ class Scene:
         mu: FrictionCoefficient,
         T: Quantity | None = None,
         shift: Length | None = None,
+        sigma_B: BulkStress | None = None,
         cycles: int = 2,
         wear: Mapping[str, Any] | None = None,
         error: float = 0.02,
@@ -2999,6 +3005,7 @@ class Scene:
         mu: FrictionCoefficient,
         T: Quantity | None = None,
         shift: Length | None = None,
+        sigma_B: BulkStress | None = None,
         cycles: int = 2,
         wear: Mapping[str, Any] | None = None,
         error: float = 0.02,
@@ -3017,7 +3024,7 @@ class Scene:
             Radius of the edges [m].
         W, T : float
             Forces per metre [N/m].
-        mu, shift, cycles, wear, error, n, quiet
+        mu, shift, sigma_B, cycles, wear, error, n, quiet
             As in :func:`ball_on_flat`.
         """
     @staticmethod
@@ -3031,6 +3038,7 @@ class Scene:
         mu: FrictionCoefficient,
         T: Quantity | None = None,
         shift: Length | None = None,
+        sigma_B: BulkStress | None = None,
         cycles: int = 2,
         wear: Mapping[str, Any] | None = None,
         error: float = 0.05,
@@ -3047,7 +3055,7 @@ class Scene:
             Measured heights, a random surface, or the file of an instrument.
         R : float
             Radius of the ball [m]: flats would touch over the whole grid.
-        W, mu, T, shift, cycles, wear, error, n, quiet
+        W, mu, T, shift, sigma_B, cycles, wear, error, n, quiet
             As in :func:`ball_on_flat`; `error` is 5 % by default.
         """
 
@@ -4401,6 +4409,7 @@ __all__ = [
     "damage_on",
     "dang_van_path",
     "degrees",
+    "depth_tables_made",
     "depths",
     "doubt",
     "doubt_quantity",

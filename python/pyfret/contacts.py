@@ -91,8 +91,8 @@ def ball_on_flat(
         Amplitude of the tangential force [N], or of the shift of the bodies [m], along x
         (default: the ball is pressed alone).
     sigma_B : float, optional
-        Amplitude of the bulk stress of the lower body along x [Pa], in phase with the force or the
-        shift (default: none).
+        Amplitude of the bulk stress of the lower body along x [Pa], in phase with the
+        force or the shift (default: none).
     cycles : int
         Cycles of the force or of the shift (default 2).
     wear : dict, optional
