@@ -17,7 +17,7 @@ pub struct CycleRecorder {
 }
 
 impl CycleRecorder {
-    /// Recorder for the branches `first..=last`, zero-based ([`crate::cycles`]).
+    /// Recorder for the branches `first..=last`, zero-based ([`contact_core::scene::LoadPath::cycles`]).
     pub fn new(side: Side, branches: (usize, usize)) -> Self {
         Self {
             side,

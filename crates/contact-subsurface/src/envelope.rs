@@ -9,7 +9,7 @@ use super::{Accumulate, Depth, Measure, Moment};
 pub struct Envelope {
     /// The measures whose extremes are sought.
     pub measures: Vec<Measure>,
-    /// First and last branch of each cycle, as in [`crate::cycles`].
+    /// First and last branch of each cycle, as in [`contact_core::scene::LoadPath::cycles`].
     pub cycles: Vec<(usize, usize)>,
 }
 
