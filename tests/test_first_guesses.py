@@ -233,3 +233,47 @@ def test_neighbouring_residuals_are_told_from_scatter() -> None:
 def test_a_wrong_argument_is_answered_with_the_call(guess: Callable[[], object], says: str) -> None:
     with pytest.raises(TypeError, match=says):
         guess()
+
+
+def test_a_profile_of_heights_is_no_scar() -> None:
+    """A scar is positive into the body: heights of a profilometer have the other sign."""
+    x = np.linspace(-1e-3, 1e-3, 21)
+    depth = 1e-6 * np.maximum(1.0 - (x / 5e-4) ** 2, 0.0)
+    scar = fret.fit.Scar.from_arrays(x, depth, wear={"cycles": 1e5})
+    assert "depth up to 1 µm" in scar.summary()
+    with pytest.raises(ValueError, match="give heights with the other sign"):
+        fret.fit.Scar.from_arrays(x, -depth, wear={"cycles": 1e5})
+
+
+def test_a_table_of_excel_takes_columns(tmp_path: Path) -> None:
+    result = fret.solve(
+        sphere_on_flat(n=16), fret.LoadPath.start().normal(W, increments=1), progress=False
+    )
+    path = tmp_path / "loop.xlsx"
+    result.to_excel(path, columns=["delta_x", "T_x"])
+    import pandas as pd
+
+    sheets = pd.read_excel(path, sheet_name=None)
+    assert [list(sheet.columns) for sheet in sheets.values()] == [["delta_x [m]", "T_x [N]"]]
+
+
+def test_a_stress_has_a_summary_of_its_largest_samples() -> None:
+    stress = (
+        fret.solve(
+            sphere_on_flat(n=16), fret.LoadPath.start().normal(W, increments=1), progress=False
+        )
+        .at(-1)
+        .stress()
+    )
+    lines = stress.summary().splitlines()
+    assert "maximum()" in lines[0]
+    largest = next(line for line in lines if line.startswith("von_mises"))
+    assert f"{1e-6 * float(stress.von_mises.max()):.4g} MPa" in largest
+    assert "z = " in largest
+
+
+def test_a_parameter_of_roughness_is_named_after_the_standard() -> None:
+    statistics = fret.SurfaceMap(ROUGH, spacing=PITCH).statistics()
+    with pytest.raises(AttributeError, match="S_a"):
+        _ = statistics.Sa  # type: ignore[attr-defined]
+    assert pickle.loads(pickle.dumps(statistics)) == copy.copy(statistics)

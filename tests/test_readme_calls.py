@@ -68,10 +68,10 @@ def names_for(question: str, folder: Path) -> dict[str, Any]:
         if question.startswith("which of two"):
             names |= {"body": coated, "law": fret.wear.Archard(1e-17), "path": slides}
             names["law_below"] = fret.wear.Archard(2e-17)
-    elif not question.startswith(("which materials", "a film", "bulk", "residual", "a measured")):
+    elif not question.startswith(("which materials", "a film", "bulk", "residual")):
         names["result"] = fret.solve(scene, save="all", progress=False)
     if question.startswith("a measured surface"):
-        heights = np.random.default_rng(1).normal(0.0, 0.1, (20, 16))
+        heights = np.random.default_rng(1).normal(0.0, 0.1, (140, 130))
         heights[3, 4] = np.nan
         np.savetxt(folder / "map.csv", heights, delimiter=",")
     return names

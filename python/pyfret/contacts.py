@@ -293,7 +293,10 @@ def shaped(part: Any, shape: Any, name: str) -> Body:
         allowed = "a Body, an Elastic or the name of a material, such as 'steel'"
         raise TypeError(f"{name} = {part!r:.60}: must be {allowed}")
     if part.shape != Flat():
-        raise ValueError(f"{name}: has a shape already, {part.shape!r}; give a body without one")
+        raise ValueError(
+            f"{name}: has a shape already, {part.shape!r}; give a body without one. A rough flat: "
+            "Scene.rough_on_flat(..., surface=...), or a Scene whose body has Sphere(...) + surface"
+        )
     return part.replace(shape=shape)
 
 

@@ -228,12 +228,32 @@ class Tabular:
         frame = choose_columns(self._frame(of), columns)
         frame.to_csv(path, index=False, lineterminator="\n", encoding="utf-8")
 
-    def to_excel(self, path: str | os.PathLike[str], *, of: str | None = None) -> None:
+    def to_excel(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        of: str | None = None,
+        columns: Sequence[str] | None = None,
+    ) -> None:
         """Write the tables into a workbook of Excel (``.xlsx``): a sheet for each, or `of` alone.
 
         A file that is there is replaced. It needs openpyxl: ``pip install "fretting[rigs]"``.
+
+        Parameters
+        ----------
+        path : path
+            The file.
+        of : str, optional
+            The table, as in :meth:`to_dataframe` (default: all, of `columns` the main one).
+        columns : sequence of str, optional
+            Columns as in :meth:`to_csv` (default: all).
         """
         self._maker(of)
         check_path(path)
-        names = list(self._tables()) if of is None else [of]
-        write_excel({name: self._frame(name) for name in names}, path)
+        names = list(self._tables())
+        if of is not None:
+            names = [of]
+        elif columns is not None:
+            names = names[:1]
+        frames = {name: choose_columns(self._frame(name), columns) for name in names}
+        write_excel(frames, path)

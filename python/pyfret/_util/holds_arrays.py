@@ -56,8 +56,19 @@ FITTED = {
 
 
 def refuse_attribute(self: Any, name: str) -> Any:
-    """Refuse a name that an object does not have, with the nearest one."""
-    missing_attribute(self, name, FITTED)
+    """Refuse a name that an object does not have, with the nearest one.
+
+    An object that was fitted leads to the unknowns that it determined.
+    """
+    if name.startswith("_"):
+        missing_attribute(self, name)
+    unknowns = vars(self).get("known")
+    if unknowns is None:
+        missing_attribute(self, name, FITTED)
+    values = {
+        key.rpartition(".")[2]: f"its value is known[{key!r}].value" for key in reversed(unknowns)
+    }
+    missing_attribute(self, name, values)
 
 
 if not TYPE_CHECKING:

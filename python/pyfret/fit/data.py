@@ -298,7 +298,24 @@ class Scar(HoldsArrays):
     ) -> Scar:
         """A profile of points; those with a missing value are left out."""
         positions, worn = together(x=x, depth=depth, holes=True)
+        low, high = float(worn.min()), float(worn.max())
+        if -low > 2.0 * max(high, 0.0):
+            raise ValueError(
+                f"depth: reaches from {length(low)} to {length(high)}, and is positive into the "
+                "body: give heights with the other sign"
+            )
         return Scar(positions, worn, wear, body_number, noise)
+
+    def summary(self) -> str:
+        """Describe the profile: points, width, depth, and the run that made it."""
+        x, depth = np.asarray(self.x), np.asarray(self.depth)
+        wear = ", ".join(f"{key} = {value!r}" for key, value in self.wear.items())
+        area = 0.5 * float(np.sum((depth[1:] + depth[:-1]) * np.diff(x)))
+        return (
+            f"{depth.size} points over {length(float(np.ptp(x)))}, depth up to "
+            f"{length(float(depth.max()))}, worn area {area:.4g} m^2\n"
+            f"body {self.body_number or '1 and 2 together'}; {wear}"
+        )
 
 
 @quantities

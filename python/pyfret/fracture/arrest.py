@@ -110,6 +110,10 @@ class CrackArrest:
         """Verdict, from which length it holds, what others would do, and numbers with errors."""
         return "; ".join(self.notes())
 
+    def summary(self) -> str:
+        """Return :meth:`describe` with a line for each fact."""
+        return "\n".join(self.notes())
+
     def notes(self) -> list[str]:
         """Give :meth:`describe` as a list, a fact each."""
         start, least = (

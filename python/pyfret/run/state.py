@@ -62,6 +62,8 @@ class State(OfRun):
     real_area_error: xr.DataArray
     nominal_area: xr.DataArray
     spots: xr.DataArray
+    rms_slope: xr.DataArray
+    slope_length: xr.DataArray
     largest_spot: xr.DataArray
     lone_share: xr.DataArray
     mean_gap: xr.DataArray

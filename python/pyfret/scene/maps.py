@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import math
 from numbers import Integral
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple, NoReturn
 
 import numpy as np
 
 from pyfret._core import SurfaceMap
+from pyfret._util.attributes import missing_attribute
 from pyfret._util.numbers import length
 from pyfret.quantities import Length, as_number, quantities
 
@@ -56,12 +57,17 @@ class Form(NamedTuple):
 
     def __str__(self) -> str:
         """Return name, radii and tilt as text."""
-        tilt = f"tilt {math.degrees(math.atan(math.hypot(*self.slopes))):.3g} deg"
+        slope = math.hypot(*self.slopes)
+        tilt = f"tilt {math.degrees(math.atan(slope)):.3g} deg" if slope > LEVEL else "no tilt"
         if self.name == "plane":
             return f"plane, {tilt}"
         if self.name == "sphere":
             return f"sphere of R = {length(self.radii[0])}, {tilt}"
         return f"{self.name}, R_x = {length(self.radii[0])}, R_y = {length(self.radii[1])}, {tilt}"
+
+
+#: Slope that is rounding.
+LEVEL = 1e-12
 
 
 class Statistics(NamedTuple):
@@ -81,6 +87,10 @@ class Statistics(NamedTuple):
     S_dq: float
     #: Pitch at which the slope was taken [m]: it grows as the pitch falls.
     S_dq_length: float
+
+    def __getattr__(self, name: str) -> NoReturn:
+        """Refuse a name that the parameters do not have, with the nearest one."""
+        missing_attribute(self, name)
 
 
 def coordinates(surface: SurfaceMap) -> tuple[Field, Field]:

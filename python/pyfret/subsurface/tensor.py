@@ -11,7 +11,7 @@ from pyfret._util.attributes import attribute_error
 from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
-from pyfret._util.numbers import layer_index, layer_name
+from pyfret._util.numbers import layer_index, layer_name, length
 from pyfret._util.scene_warnings import warn
 from pyfret.quantities import quantities
 from pyfret.scene.tables import table
@@ -104,6 +104,23 @@ class Stress(Labelled, Figured):
                 None,
             )
         }
+
+    def summary(self) -> str:
+        """Return the largest samples of the equivalent and principal stresses, and their places."""
+        lines = [
+            f"{self.dataset[COMPONENTS[0]].size} points; largest samples (maximum() searches "
+            "between them and gives the error)"
+        ]
+        for name in EQUIVALENT:
+            values = self.measure(name)
+            largest = values.isel(values.argmax(...))
+            position = ", ".join(
+                f"{axis} = {length(float(value))}"
+                for axis, value in largest.coords.items()
+                if axis in ("x", "y", "z", "s")
+            )
+            lines.append(f"{name:11s} {1e-6 * float(largest):10.4g} MPa at {position}")
+        return "\n".join(lines)
 
     def principal(self) -> xr.Dataset:
         """Principal values, the largest first, and unit vectors of their directions."""
