@@ -116,8 +116,9 @@ def numbers(values: ArrayLike, name: str, *, holes: bool = False) -> NDArray[np.
     except (TypeError, ValueError, OverflowError) as error:
         raise TypeError(f"{name}: must be an array of numbers: {error}") from error
     with np.errstate(over="ignore", invalid="ignore"):
-        # A sum is a number where all terms are: one pass, without a copy.
-        if np.isfinite(array.sum()):
+        # A sum is a number where all terms are: one pass, without a copy. An array that repeats its
+        # values has more of them than memory.
+        if 0 not in array.strides and np.isfinite(array.sum()):
             return array
     bad = np.isinf(array) if holes else ~np.isfinite(array)
     if bad.any():
