@@ -554,7 +554,11 @@ mod tests {
             let dependences = friction.laws().flat_map(|law| law.depends_on().iter());
             let on: Vec<_> = dependences.copied().collect();
             assert!(!on.is_empty() && friction.depends_only_on(&on));
-            let fixed = [Dependence::Direction, Dependence::Place];
+            let fixed = [
+                Dependence::Direction,
+                Dependence::Place,
+                Dependence::Surface,
+            ];
             assert_eq!(friction.varies(), on.iter().any(|d| !fixed.contains(d)));
         }
     }
