@@ -1,4 +1,4 @@
-"""Stores of pyfret in the libraries of others: zarr-python, tensorstore, GDAL, netCDF-C."""
+"""Stores of pyfret in the libraries of others: zarr-python, tensorstore, GDAL."""
 
 from __future__ import annotations
 
@@ -47,18 +47,3 @@ def test_gdal_reads_it(store: Path, pressure: np.ndarray) -> None:
     rasterio = pytest.importorskip("rasterio")
     with rasterio.open(f'ZARR:"{store}":/p:0') as image:
         np.testing.assert_array_equal(image.read(1), pressure[0])
-
-
-def test_netcdf_reads_a_copy(store: Path, pressure: np.ndarray) -> None:
-    netcdf = pytest.importorskip("netCDF4")
-    copy = store.with_name("copy.zarr")
-    with netcdf.Dataset(f"file://{copy}#mode=zarr") as group:
-        np.testing.assert_array_equal(np.asarray(group["p"][...]), pressure)
-        assert set(np.unique(group["stick"][...])) <= {0, 1}
-
-
-def test_masks_are_masks_to_xarray(store: Path) -> None:
-    xarray = pytest.importorskip("xarray")
-    with xarray.open_zarr(store) as dataset:
-        assert dataset["stick"].dtype == bool
-        assert fret.open(store).dataset["stick"].dtype == bool
