@@ -302,7 +302,7 @@ def compared(
             moved = numbers(moved_scene, **options)
             for name, (value, error) in right.items():
                 # The nominal contact of a map is the whole grid: its mean gap depends on the place.
-                if name == "mean_gap" and moved_scene.offset != drawn.offset:
+                if name in ("mean_gap", "rms_slope") and moved_scene.offset != drawn.offset:
                     continue
                 # Loops are along an axis.
                 if name.startswith("loop: ") and name not in moved:
