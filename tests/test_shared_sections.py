@@ -13,7 +13,7 @@ pytestmark = pytest.mark.solves
 
 
 def test_stress_measures_share_their_sections(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Three measures of five increments: five sections, and the numbers of single questions."""
+    """Three measures of five increments: searched sections alone, numbers of single questions."""
     path = fret.LoadPath.start().normal(W, increments=2).tangential([50.0], increments=3)
     result = fret.solve(sphere_on_flat(n=12), path, save="all", progress=False)
     names = ["von_mises", "tresca", "s_1"]
@@ -31,5 +31,6 @@ def test_stress_measures_share_their_sections(monkeypatch: pytest.MonkeyPatch) -
 
     monkeypatch.setattr(Snapshot, "stress", count)
     numbers, _ = evaluate_measures(result, names)
-    assert sections == 5
+    # All are sampled in one call (test_answers.py); a search evaluates the section of its state.
+    assert 0 < sections <= 5
     assert {name: float(numbers[name].values) for name in names} == alone
