@@ -143,3 +143,23 @@ def test_rough_partial_slip_follows_from_pressing_alone(seed: int, part: float) 
     assert np.abs(q - mu * (full - reduced)).max() < 1e-3 * mu * full.max()
     shift = mu * (float(unloaded[0].delta_z) - float(unloaded[1].delta_z))
     assert float(result.dataset.delta_x[-1]) == pytest.approx(shift, rel=1e-4)
+
+
+@pytest.mark.filterwarnings("ignore:the surfaces are uneven")
+def test_the_slope_does_not_depend_on_the_direction_of_the_shear() -> None:
+    """Shear along x mirrors the scene and halves its cells, shear along y does not."""
+    cells = (np.arange(24) - 11.5) * 4e-6
+    x, y = np.meshgrid(cells, cells, indexing="ij")
+    bowl = fret.SurfaceMap(-(x**2 + y**2) / (2 * 5e-3), spacing=(4e-6, 4e-6))
+    steel = fret.Elastic(E=210e9, nu=0.3)
+    slopes = []
+    for axis in ("T_x", "T_y"):
+        scene = fret.Scene(
+            body1=fret.Body(steel, shape=bowl),
+            body2=fret.Body(steel),
+            friction=0.5,
+            grid=fret.Grid.centred(width=24 * 4e-6, n=24),
+            path=fret.LoadPath.start().normal(0.5, increments=1).force(**{axis: 0.1}, increments=1),
+        )
+        slopes.append(float(fret.solve(scene, progress=False).rms_slope[-1]))
+    assert slopes[0] == pytest.approx(slopes[1], rel=1e-9)

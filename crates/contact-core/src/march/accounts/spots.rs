@@ -51,27 +51,33 @@ pub(super) fn spots(
 }
 
 /// Root mean square of the slopes of the gap between neighbouring cells of the nominal contact, without those
-/// of the curvature of the shapes.
+/// of the curvature of the shapes: the mean square along x plus the one along y. Of a mirrored scene half of
+/// the cells are stored; between its first row and the image the slope along y is zero, for half a pair.
 fn rms_slope(setup: &Setup<'_>, nominal: &Nominal) -> f64 {
     let (scene, geometry) = (&setup.problem.scene, setup.geometry);
     let (arms, h, grid) = (&geometry.arms, &geometry.h_init, &geometry.grid);
-    let rows = Lattice::new(grid, setup.problem.plan.mirror).rows();
+    let lattice = Lattice::new(grid, setup.problem.plan.mirror);
+    let rows = lattice.rows();
     let [upper, lower] = [&scene.body1, &scene.body2].map(|body| body.shape.curvature());
     let [k_xx, k_xy, k_yy] = [0, 1, 2].map(|n| upper[n] + lower[n]);
-    let [squares, cells] = sums([&h[..]], |n, [here]| {
+    let [along_x, pairs_x, along_y, pairs_y] = sums([&h[..]], |n, [here]| {
         let [x, y] = [arms.x[n] * arms.length, arms.y[n] * arms.length];
-        let is_last_row = rows > 1 && n % rows + 1 == rows;
-        if n + rows >= h.len() || is_last_row || !nominal.covers([x, y]) {
-            return [0.0; 2];
+        let mut parts = [0.0; 4];
+        if !nominal.covers([x, y]) {
+            return parts;
         }
-        let (x_m, y_m) = (x + 0.5 * grid.dx, y + 0.5 * grid.dy);
-        let s_x = (h[n + rows] - here) / grid.dx - (k_xx * x_m + k_xy * y);
-        let s_y = if rows > 1 {
-            (h[n + 1] - here) / grid.dy - (k_xy * x + k_yy * y_m)
-        } else {
-            0.0
-        };
-        [s_x * s_x + s_y * s_y, 1.0]
+        if n + rows < h.len() {
+            let s_x = (h[n + rows] - here) / grid.dx - (k_xx * (x + 0.5 * grid.dx) + k_xy * y);
+            parts[..2].copy_from_slice(&[s_x * s_x, 1.0]);
+        }
+        if n % rows + 1 < rows {
+            let s_y = (h[n + 1] - here) / grid.dy - (k_xy * x + k_yy * (y + 0.5 * grid.dy));
+            parts[2..].copy_from_slice(&[s_y * s_y, 1.0]);
+        }
+        if lattice.is_mirrored() && n % rows == 0 {
+            parts[3] += 0.5;
+        }
+        parts
     });
-    (squares / cells.max(1.0)).sqrt()
+    (along_x / pairs_x.max(1.0) + along_y / pairs_y.max(1.0)).sqrt()
 }
