@@ -1,7 +1,7 @@
 //! A bracketed root.
 
-/// The root of an `f` that rises through zero on (a, b), to round-off: bisection, which cannot
-/// fail. The bound of its side where `f` has only one sign.
+/// Returns the root in (a, b) of a function `f` that rises through zero, to round-off, by bisection. If `f` has
+/// only one sign, it returns a or b: the end on the side of zero.
 pub fn bisect(mut a: f64, mut b: f64, f: impl Fn(f64) -> f64) -> f64 {
     loop {
         let middle = f64::midpoint(a, b);

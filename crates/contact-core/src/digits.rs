@@ -12,13 +12,12 @@ const ZEROS: i32 = 4;
 /// Powers of ten from and up to which numbers are printed without an exponent.
 const PLAIN: std::ops::RangeInclusive<i32> = -4..=6;
 
-/// A number with four digits, without zeros at its end, with an exponent where it is large or
-/// small.
+/// Formats a number with four digits, without trailing zeros, with an exponent where it is large or small.
 pub fn short(x: f64) -> String {
     digits(x, DIGITS)
 }
 
-/// A number with two digits, which is known to no more.
+/// Formats a number whose error is not known, with two digits.
 pub fn rough(x: f64) -> String {
     digits(x, OF_ERRORS)
 }
@@ -129,7 +128,7 @@ pub fn with_range(value: f64, [low, high]: [f64; 2]) -> String {
     )
 }
 
-/// A number of two digits, without zeros that would pass for digits.
+/// Formats a number that is known to two digits, without zeros that would pass for digits.
 ///
 /// # Examples
 ///
@@ -164,7 +163,8 @@ pub fn degrees(angle: f64) -> String {
 /// Part of the size of a grid, or of a contact, below which a place is zero to rounding.
 const OF_SIZE: f64 = 1e-9;
 
-/// A place \[m\] on a grid, or in a contact, of a size \[m\]: zero where it is zero to rounding.
+/// Sets a coordinate \[m\] that is zero to rounding to zero; `size` \[m\] is the length of the grid or of the
+/// contact.
 ///
 /// # Examples
 ///
@@ -183,7 +183,7 @@ fn power(x: f64) -> i32 {
     x.abs().log10().floor() as i32
 }
 
-/// A number with a few digits, without zeros at its end.
+/// Formats a number with `count` digits, without trailing zeros.
 fn digits(x: f64, count: i32) -> String {
     if x == 0.0 || !x.is_finite() {
         return x.to_string();

@@ -286,7 +286,7 @@ fn join_lines(errors: &[Error], doubts: &[String]) -> String {
 }
 
 impl Error {
-    /// The line of a scene file, 0 where there is none.
+    /// The line of the scene file that the error is about; 0 where there is none.
     pub fn line(&self) -> usize {
         match self {
             Self::SceneFile { line, .. } => *line,

@@ -27,6 +27,8 @@ fn left_of_limit() -> Option<f64> {
     Some((limit - 1024.0 * taken).max(0.0))
 }
 
+/// Free memory of the system or of the process's control group \[bytes\], whichever is less; infinite where the
+/// system does not report it.
 fn system_memory() -> f64 {
     let mut system = System::new();
     system.refresh_memory_specifics(MemoryRefreshKind::nothing().with_ram());
@@ -38,7 +40,7 @@ fn system_memory() -> f64 {
     }
 }
 
-/// Fails if that many bytes are not to be had.
+/// Fails if `needed` bytes are more than the free memory; `what` is named in the error.
 pub fn fits(what: &'static str, needed: f64) -> Result<(), Error> {
     let available = available_memory();
     if needed <= available {

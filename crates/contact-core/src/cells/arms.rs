@@ -29,7 +29,9 @@ pub struct Arms {
 }
 
 impl Arms {
-    /// Factor of motion k of [`RigidMotion::ALL`], and divisor of its load, in the solvers.
+    /// Factor from the motion k of [`RigidMotion::ALL`] \[m or rad\] to the length \[m\] that the solvers use
+    /// for it: the length of the arms for rotations, the ratio of the friction coefficients for the shift along
+    /// y, 1 for the others. The load of the motion is divided by it.
     pub(crate) fn motion_unit(&self, k: usize) -> f64 {
         match RigidMotion::ALL[k] {
             motion if motion.is_rotation() => self.length,
@@ -38,7 +40,7 @@ impl Arms {
         }
     }
 
-    /// Displacement of cell n along y in a unit rotation.
+    /// Displacement of cell n along y in a unit rotation: its lever arm along x, over the length of the arms.
     pub(crate) fn turn_arm_x(&self, n: usize) -> f64 {
         self.axis_ratio * self.x[n]
     }
@@ -79,8 +81,8 @@ impl Arms {
         [p, self.y[n] * p, -self.x[n] * p]
     }
 
-    /// The motion within `free` with the least weighted squares of its difference in the plane from
-    /// the values of `weighted`, which returns the weight and the value of a cell of some fields.
+    /// The motion within `free` that fits displacements in the plane best: least weighted squares over the
+    /// cells of `fields`. `weighted` returns the weight and the displacement of a cell.
     pub(crate) fn fit_in_plane<F: Fields>(
         &self,
         free: [bool; 3],
@@ -105,9 +107,8 @@ impl Arms {
         product(&inverse(plane, free), [a, b, moment])
     }
 
-    /// The motion within `free` with the least weighted squares of its difference across the plane
-    /// from the values of `weighted`, which returns the weight and the value of a cell of some
-    /// fields.
+    /// The motion within `free` that fits normal displacements best: least weighted squares over the cells of
+    /// `fields`. `weighted` returns the weight and the displacement of a cell.
     pub(crate) fn fit_across<F: Fields>(
         &self,
         free: [bool; 3],
@@ -135,7 +136,8 @@ impl Arms {
         self.solve_across(free, [weights], |_, [weight]| (weight, 0.0), Some(required))
     }
 
-    /// Solves the normal equations of weights and values; `required` replaces the sums of the values.
+    /// Solves the normal equations of [`Self::fit_across`] for the motion; `required`, if given, replaces the
+    /// weighted sums of the values.
     fn solve_across<F: Fields>(
         &self,
         free: [bool; 3],
@@ -168,8 +170,8 @@ pub struct Drive {
 /// A pivot below this part of its diagonal entry is rounding: the unknown is undetermined.
 const PIVOT: f64 = 1e-13;
 
-/// Inverse of a symmetric positive semidefinite matrix on the unknowns that are free and that it
-/// determines, zero on the others.
+/// Inverse of a symmetric positive semidefinite matrix, restricted to the unknowns that are `free` and that it
+/// determines. Rows and columns of the others are zero.
 pub(crate) fn inverse<const N: usize>(matrix: [[f64; N]; N], free: [bool; N]) -> [[f64; N]; N] {
     let mut a = matrix;
     let mut is_kept = [false; N];

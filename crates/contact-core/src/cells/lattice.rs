@@ -35,7 +35,8 @@ impl Lattice {
         self.mirrored
     }
 
-    /// The cells that have neighbours of the other kind, in order.
+    /// The cells at the border of a zone, inside and outside it: those with a neighbour (along x or y) of the
+    /// other kind.
     pub fn border(self, zone: &[bool]) -> Vec<usize> {
         let (columns, rows) = (self.columns as usize, self.rows as usize);
         let triples_of_column = |i: usize| zone[i * rows..(i + 1) * rows].windows(3);

@@ -20,7 +20,7 @@ pub(crate) struct ContactCells {
 }
 
 impl ContactCells {
-    /// Finds the cells where `inside` holds, of `cells` in all.
+    /// Finds the cells n < `cells` for which `inside(n)` holds, and stores them as runs.
     pub(crate) fn find(&mut self, cells: usize, inside: impl Fn(usize) -> bool) {
         self.runs.clear();
         self.count = 0;
@@ -47,6 +47,7 @@ impl ContactCells {
         }
     }
 
+    /// Appends a run of consecutive cells of the field, and counts its cells.
     fn push_run(&mut self, run: Range<usize>) {
         self.count += run.len();
         self.runs.push(run);

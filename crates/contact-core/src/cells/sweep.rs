@@ -39,7 +39,7 @@ pub(crate) trait Fields: Copy + Sync {
     fn fields_of_last(last: &Self::Last) -> Self::Other<'_>;
 }
 
-/// The cells of a field from n on, fewer than a block, the last one repeated.
+/// The tail of a field, from cell n to its end: fewer than a block. The block is filled up with the last cell.
 fn last_cells_of<T: Copy + Default>(field: &[T], n: usize) -> [T; BLOCK] {
     let remaining = &field[n..];
     std::array::from_fn(|i| {
@@ -57,6 +57,7 @@ impl<'a, const R: usize> Fields for [&'a [f64]; R] {
     type Last = [[f64; BLOCK]; R];
     type Other<'b> = [&'b [f64]; R];
 
+    /// Whether every field has this number of cells.
     fn have_length(self, cells: usize) -> bool {
         self.iter().all(|f| f.len() == cells)
     }
@@ -69,6 +70,7 @@ impl<'a, const R: usize> Fields for [&'a [f64]; R] {
         self.map(|f| &f[cells.clone()])
     }
 
+    /// The eight cells from n on of every field; none if fewer are left.
     #[inline]
     fn block(self, n: usize) -> Option<Self::Block> {
         const NONE: &[f64; BLOCK] = &[0.0; BLOCK];
@@ -84,10 +86,12 @@ impl<'a, const R: usize> Fields for [&'a [f64]; R] {
         block.map(|f| f[i])
     }
 
+    /// The cells from n to the end of every field, filled up to a block with the last one.
     fn last_cells(self, n: usize) -> Self::Last {
         self.map(|f| last_cells_of(f, n))
     }
 
+    /// The filled blocks as fields.
     fn fields_of_last(last: &Self::Last) -> Self::Other<'_> {
         last.each_ref().map(|f| &f[..])
     }
@@ -112,6 +116,7 @@ impl<'a> Fields for &'a [bool] {
         &self[cells]
     }
 
+    /// The eight cells from n on; none if fewer are left.
     #[inline]
     fn block(self, n: usize) -> Option<Self::Block> {
         self.get(n..)?.first_chunk()
@@ -122,10 +127,12 @@ impl<'a> Fields for &'a [bool] {
         block[i]
     }
 
+    /// The cells from n to the end, filled up to a block with the last one.
     fn last_cells(self, n: usize) -> Self::Last {
         last_cells_of(self, n)
     }
 
+    /// The filled block as a field.
     fn fields_of_last(last: &Self::Last) -> Self::Other<'_> {
         last
     }
@@ -137,6 +144,7 @@ impl<A: Fields, B: Fields> Fields for (A, B) {
     type Last = (A::Last, B::Last);
     type Other<'b> = (A::Other<'b>, B::Other<'b>);
 
+    /// Whether the fields of both parts have this number of cells.
     fn have_length(self, cells: usize) -> bool {
         self.0.have_length(cells) && self.1.have_length(cells)
     }
@@ -149,6 +157,7 @@ impl<A: Fields, B: Fields> Fields for (A, B) {
         (self.0.slice(cells.clone()), self.1.slice(cells))
     }
 
+    /// The eight cells from n on of both parts; none if fewer are left.
     #[inline]
     fn block(self, n: usize) -> Option<Self::Block> {
         Some((self.0.block(n)?, self.1.block(n)?))
@@ -159,10 +168,12 @@ impl<A: Fields, B: Fields> Fields for (A, B) {
         (A::cell_of_block(&block.0, i), B::cell_of_block(&block.1, i))
     }
 
+    /// The cells from n to the end of both parts, filled up to a block with the last one.
     fn last_cells(self, n: usize) -> Self::Last {
         (self.0.last_cells(n), self.1.last_cells(n))
     }
 
+    /// The filled blocks of both parts as fields.
     fn fields_of_last((a, b): &Self::Last) -> Self::Other<'_> {
         (A::fields_of_last(a), B::fields_of_last(b))
     }
@@ -236,6 +247,8 @@ pub(crate) fn largest<F: Fields, const M: usize>(
     largest
 }
 
+/// Sweeps a part of the cells, in halves on two threads if it is large. Sets `to` as [`sweep`] does; returns
+/// the K sums and the M largest values.
 fn sweep_part<F: Fields, const W: usize, const K: usize, const M: usize>(
     cells: Range<usize>,
     from: F,
@@ -295,8 +308,8 @@ fn sweep_part<F: Fields, const W: usize, const K: usize, const M: usize>(
     )
 }
 
-/// Sweeps the whole blocks of some cells: sums and largest values for every position in a block.
-/// Positions beyond the end of the cells repeat the last cell.
+/// Sweeps whole blocks of cells. Returns the K sums and the M largest values separately for each position in a
+/// block. In the last block, positions beyond the end repeat the last cell.
 #[inline(never)]
 fn sweep_blocks<F: Fields, const W: usize, const K: usize, const M: usize>(
     cells: Range<usize>,

@@ -8,7 +8,7 @@ use crate::convolution::PARALLEL_FROM;
 /// on nothing but the length.
 const LANES: usize = 8;
 
-/// a . b
+/// Dot product a . b; long fields are summed in halves on two threads, always in the same order.
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     if a.len() > CHUNK {
         let middle = a.len() / 2;
@@ -28,7 +28,7 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + remainder
 }
 
-/// Sum of all.
+/// Sum of all entries, always in the same order.
 pub(crate) fn sum(a: &[f64]) -> f64 {
     let (a, rest) = a.as_chunks::<LANES>();
     let mut sums = [0.0; LANES];
@@ -40,7 +40,7 @@ pub(crate) fn sum(a: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest.iter().sum::<f64>()
 }
 
-/// Size of a vector.
+/// Length of a vector in the plane.
 pub fn length(v: [f64; 2]) -> f64 {
     (v[0] * v[0] + v[1] * v[1]).sqrt()
 }

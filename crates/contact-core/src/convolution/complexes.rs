@@ -21,6 +21,7 @@ pub(crate) struct ComplexBlock<T, const N: usize> {
 }
 
 impl<T: Precision, const N: usize> ComplexBlock<T, N> {
+    /// N zeros.
     #[inline]
     pub(crate) fn zero() -> Self {
         Self {
@@ -29,6 +30,11 @@ impl<T: Precision, const N: usize> ComplexBlock<T, N> {
         }
     }
 
+    /// Loads N complex numbers in order.
+    ///
+    /// # Panics
+    ///
+    /// If `z` has another length.
     #[inline]
     pub(crate) fn load(z: &[Complex<T>]) -> Self {
         let z: &[Complex<T>; N] = z.try_into().expect("N numbers");
@@ -48,6 +54,11 @@ impl<T: Precision, const N: usize> ComplexBlock<T, N> {
         }
     }
 
+    /// Stores the N numbers in order.
+    ///
+    /// # Panics
+    ///
+    /// If `z` has another length.
     #[inline]
     pub(crate) fn store(&self, z: &mut [Complex<T>]) {
         let z: &mut [Complex<T>; N] = z.try_into().expect("N numbers");
@@ -56,6 +67,11 @@ impl<T: Precision, const N: usize> ComplexBlock<T, N> {
         }
     }
 
+    /// Stores the conjugates in reverse order: from frequencies to their negatives.
+    ///
+    /// # Panics
+    ///
+    /// If `z` has another length.
     #[inline]
     pub(crate) fn store_mirrored(&self, z: &mut [Complex<T>]) {
         let z: &mut [Complex<T>; N] = z.try_into().expect("N numbers");
@@ -64,7 +80,7 @@ impl<T: Precision, const N: usize> ComplexBlock<T, N> {
         }
     }
 
-    /// self += unit * spectrum * z
+    /// Adds the product of a real spectrum, a `unit` (1, -1, i or -i) and the numbers z.
     #[inline]
     pub(crate) fn add(&mut self, spectrum: &[T; N], unit: Unit, z: &Self) {
         match unit {
@@ -105,16 +121,19 @@ impl<T: Precision, const N: usize> ComplexBlock<T, N> {
         }
     }
 
+    /// Sum, number by number.
     #[inline]
     pub(crate) fn plus(&self, other: &Self) -> Self {
         self.map_pairs(other, |z, w| [z[0] + w[0], z[1] + w[1]])
     }
 
+    /// Difference, number by number.
     #[inline]
     pub(crate) fn minus(&self, other: &Self) -> Self {
         self.map_pairs(other, |z, w| [z[0] - w[0], z[1] - w[1]])
     }
 
+    /// Complex product, number by number.
     #[inline]
     pub(crate) fn times(&self, other: &Self) -> Self {
         self.map_pairs(other, |z, w| {
@@ -122,16 +141,19 @@ impl<T: Precision, const N: usize> ComplexBlock<T, N> {
         })
     }
 
+    /// Each number times i.
     #[inline]
     pub(crate) fn times_i(&self) -> Self {
         self.map_pairs(self, |z, _| [-z[1], z[0]])
     }
 
+    /// Each number with the opposite sign.
     #[inline]
     pub(crate) fn negative(&self) -> Self {
         self.map_pairs(self, |z, _| [-z[0], -z[1]])
     }
 
+    /// Complex conjugate of each number.
     #[inline]
     pub(crate) fn conjugate(&self) -> Self {
         self.map_pairs(self, |z, _| [z[0], -z[1]])

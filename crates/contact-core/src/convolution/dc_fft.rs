@@ -45,8 +45,9 @@ impl DcFft {
         Self::new_unless_stopped(coefficients, mirror, coupling, single, &stop).expect(NOBODY)
     }
 
-    /// Builds the operator as [`Self::with_single`] does; fails when `stop` is raised: [`Error::Interrupted`] after
-    /// increment 0.
+    /// Builds the operator. `coupling` keeps the normal-tangential kernels; `single` adds spectra in f32, so
+    /// that responses to changes are computed in single precision ([`SurfaceOperator::respond`]). Fails when
+    /// `stop` is raised: [`Error::Interrupted`] after increment 0.
     pub fn new_unless_stopped(
         coefficients: &InfluenceCoefficients,
         mirror: Mirror,
@@ -74,7 +75,7 @@ impl DcFft {
     }
 }
 
-/// The largest norm of a kernel \[m/Pa\].
+/// The largest norm of the influence coefficients of one pair of directions \[m/Pa\].
 fn largest_norm(c: &InfluenceCoefficients) -> f64 {
     let kernels = [&c.xx, &c.yy, &c.zz, &c.xy, &c.xz, &c.yz];
     kernels.into_iter().map(norm).fold(0.0, f64::max)
@@ -89,6 +90,7 @@ impl SurfaceOperator for DcFft {
         self.product.apply(tractions, displacements);
     }
 
+    /// Applies the kernels in single precision where the operator has them, otherwise in double precision.
     fn respond(&mut self, tractions: Tractions<'_>, displacements: Displacements<'_>) {
         match &mut self.single {
             Some(single) => single.apply(tractions, displacements),

@@ -20,7 +20,8 @@ impl Direct {
         }
     }
 
-    /// u += sign * C * q.
+    /// u += sign * C * q by the direct sum over all pairs of cells. `c` has the coefficients at the offsets >=
+    /// 0, and `odd` is their parity along x and along y.
     fn add(&self, u: &mut [f64], c: &Quadrant, odd: (bool, bool), sign: f64, q: &[f64]) {
         let (nx, ny) = self.shape();
         let coefficient = |i: usize, j: usize, k: usize, l: usize| {
@@ -44,6 +45,7 @@ impl SurfaceOperator for Direct {
         self.coefficients.zz.dim()
     }
 
+    /// Sums all nine kernels over all pairs of cells: the yardstick of the FFT.
     fn apply(&mut self, tractions: Tractions<'_>, displacements: Displacements<'_>) {
         let c = &self.coefficients;
         let (even, odd) = (false, true);

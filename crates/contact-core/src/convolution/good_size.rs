@@ -11,7 +11,7 @@ const ODD_PARTS: [(usize, f64); 6] = [
     (15, 1.35),
 ];
 
-/// Even length >= `n` whose transform is fastest.
+/// The even length >= `n` whose FFT takes the least time.
 pub fn fast_length(n: usize) -> usize {
     let sizes = ODD_PARTS.map(|(odd, cost)| {
         let mut size = 2 * odd;

@@ -48,8 +48,8 @@ const KERNELS: [[(Group, usize, Unit); 3]; 3] = {
 /// A line per component: `period + 1` numbers, the last of which repeats the first.
 pub(crate) type Line<'a, T> = [&'a mut [Complex<T>]; 3];
 
-/// Replaces the spectra of the tractions that act by the spectra of the displacements wanted, times
-/// two if `mirrored`.
+/// Multiplies a line by the kernels: the spectra of the tractions that act are replaced by the spectra of the
+/// displacements wanted, times two if `mirrored`.
 pub(crate) fn multiply<T: Precision>(
     mut line: Line<'_, T>,
     kernels: LineKernels<'_, T>,
@@ -74,6 +74,8 @@ const SHEAR: u8 = 0b011;
 const PRESSURE: u8 = 0b100;
 const ANY: u8 = 0;
 
+/// Calls the product that is compiled for these flags: shear to tangential displacements, pressure to normal
+/// displacement, or any.
 fn multiply_pairs<T: Precision, const MIRRORED: bool>(
     line: &mut Line<'_, T>,
     kernels: LineKernels<'_, T>,
@@ -105,6 +107,8 @@ struct Product<'a, T> {
 type Pair<T, const N: usize> = [ComplexBlock<T, N>; 2];
 
 impl<T: Precision> Product<'_, T> {
+    /// Multiplies all frequencies of a line, in blocks of [`LANES`] and then singly. `SET` is the set of
+    /// components that the code is compiled for.
     fn multiply_all<const MIRRORED: bool, const SET: u8>(&self, line: &mut Line<'_, T>) {
         let half = (line[0].len() - 1) / 2;
         let full_blocks = (half + 1) / LANES * LANES;
@@ -116,6 +120,7 @@ impl<T: Precision> Product<'_, T> {
         }
     }
 
+    /// Whether a component acts or is wanted: by the `flags`, or by `SET` where it is fixed at compile time.
     #[inline(always)]
     fn is_in<const SET: u8>(flags: [bool; 3], component: usize) -> bool {
         if SET == ANY {
@@ -125,7 +130,7 @@ impl<T: Precision> Product<'_, T> {
         }
     }
 
-    /// Multiplies the frequencies k to k + N - 1 and their negatives.
+    /// Multiplies the frequencies k to k + N - 1 and their negatives by the kernels.
     #[inline(always)]
     fn multiply_block<const N: usize, const MIRRORED: bool, const SET: u8>(
         &self,
@@ -142,7 +147,8 @@ impl<T: Precision> Product<'_, T> {
         self.compute_displacement::<N, MIRRORED, SET, 2>(line, k, &tractions);
     }
 
-    /// Loads the traction C.
+    /// Loads the spectrum of traction C (0: q_x, 1: q_y, 2: p) at N frequencies and their negatives; zero where
+    /// it does not act.
     #[inline(always)]
     fn load_traction<const N: usize, const MIRRORED: bool, const SET: u8, const C: usize>(
         &self,
@@ -158,7 +164,8 @@ impl<T: Precision> Product<'_, T> {
         sum_and_difference::<T, N, MIRRORED>([x, y])
     }
 
-    /// Computes the displacement E.
+    /// Computes and stores the spectrum of displacement E (0 to 2) at N frequencies and their negatives, if it
+    /// is wanted.
     #[inline(always)]
     fn compute_displacement<const N: usize, const MIRRORED: bool, const SET: u8, const E: usize>(
         &self,
@@ -179,7 +186,7 @@ impl<T: Precision> Product<'_, T> {
         y.store_mirrored(&mut line[E][end - N..end]);
     }
 
-    /// Adds the part of the displacement E that the traction C causes.
+    /// Adds the part of displacement E that traction C causes, if C acts.
     #[inline(always)]
     fn add_part<
         const N: usize,
@@ -225,6 +232,7 @@ fn sum_and_difference<T: Precision, const N: usize, const MIRRORED: bool>(
     [x.plus(&y), x.minus(&y)]
 }
 
+/// The N numbers from `first` of a block of kernel values.
 #[inline(always)]
 fn take_lanes<T: Precision, const N: usize>(block: &[T; LANES], first: usize) -> [T; N] {
     if N == LANES {

@@ -58,6 +58,7 @@ impl<T: Precision> LineSpectra<T> {
         })
     }
 
+    /// The kernels of one line of constant k_y.
     pub(crate) fn kernels_of_line(&self, line: usize) -> LineKernels<'_, T> {
         LineKernels {
             tangential: self.tangential.values_of_line(line),
@@ -68,6 +69,7 @@ impl<T: Precision> LineSpectra<T> {
 }
 
 impl<T: Precision> Group<T> {
+    /// Arranges spectra of the same kind as [`LineSpectra::new`] does; empty where there are none.
     fn new(
         spectra: &[&Spectrum],
         row: usize,
@@ -110,6 +112,7 @@ impl<T: Precision> Group<T> {
         })
     }
 
+    /// The blocks of kernel values of a line.
     fn values_of_line(&self, line: usize) -> &[[T; LANES]] {
         &self.values[line * self.per_line..(line + 1) * self.per_line]
     }

@@ -30,6 +30,8 @@ impl Precision for f64 {
         self
     }
 
+    /// Power of two by which kernels are divided, so that they stay within the range of the type; 1 in double
+    /// precision.
     fn unit(_: impl FnOnce() -> f64) -> f64 {
         1.0
     }
@@ -44,6 +46,7 @@ impl Precision for f32 {
         f64::from(self)
     }
 
+    /// Largest power of two below the largest kernel: divided by it, the kernels are of the order of one.
     fn unit(largest: impl FnOnce() -> f64) -> f64 {
         let largest = largest();
         if largest > 0.0 && largest.is_finite() {

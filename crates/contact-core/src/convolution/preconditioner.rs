@@ -61,6 +61,7 @@ impl CirculantInverse {
         Ok(Self { product })
     }
 
+    /// Applies the inverse spectra in the precision that they are kept in.
     fn apply(&mut self, tractions: Tractions<'_>, displacements: Displacements<'_>) {
         match &mut self.product {
             Product::Single(product) => product.apply(tractions, displacements),
@@ -70,6 +71,7 @@ impl CirculantInverse {
 }
 
 impl ApproximateInverse for CirculantInverse {
+    /// z ~ C_zz^-1 r, of the pressure from the normal displacement.
     fn normal(&mut self, r: &[f64], z: &mut [f64]) {
         let tractions = Tractions {
             p: Some(r),
@@ -82,6 +84,7 @@ impl ApproximateInverse for CirculantInverse {
         self.apply(tractions, displacements);
     }
 
+    /// z ~ C_tt^-1 r, of the shear from the tangential displacements.
     fn tangential(&mut self, r: [&[f64]; 2], z: [&mut [f64]; 2]) {
         let [z_x, z_y] = z;
         let tractions = Tractions {
@@ -98,7 +101,8 @@ impl ApproximateInverse for CirculantInverse {
     }
 }
 
-/// The offsets up to half the period; where the two ends of the period meet an odd kernel vanishes.
+/// Keeps the coefficients at offsets up to half the `period`. At exactly half, where both ends of the period
+/// meet, an odd kernel is zero.
 fn cut_at_half(q: &Quadrant, period: (usize, usize), odd: bool) -> Quadrant {
     let (nx, ny) = q.dim();
     if q.is_empty() {

@@ -151,7 +151,8 @@ impl<T: Precision> SpectralProduct<T> {
         self.transform_rows_back(unit * self.unit, &mut output);
     }
 
-    /// Returns the blocks of rows outside which no traction acts, and the largest absolute value.
+    /// Returns the range of blocks of rows that hold all tractions that are not zero, and the largest absolute
+    /// traction.
     fn find_loaded_blocks(&mut self, input: [Option<&[f64]>; 3]) -> (Range<usize>, f64) {
         let block = ROWS * self.rows;
         let work = |(b, largest): (usize, &mut [u64]), _: &mut Scratch<T>| {
@@ -305,7 +306,8 @@ fn clear_row<T: Precision>(block: &mut [Complex<T>], row: usize) {
     }
 }
 
-/// Shares the `work` on every `size` items among as many parts as there are buffers.
+/// Distributes `items` in groups of `size` over the threads, each of which has its own buffers, and calls
+/// `work` with each group and its first index.
 fn share_work<T: Send, P: Precision>(
     parts: &mut [Scratch<P>],
     items: &mut [T],

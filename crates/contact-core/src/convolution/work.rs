@@ -32,7 +32,7 @@ impl Convolutions {
         self.0 as f64 / COMPONENTS as f64
     }
 
-    /// Remaining work after the work `done`, not below zero.
+    /// Returns what is left of this work once the work `done` is done, not below zero.
     #[must_use]
     pub fn remaining_after(self, done: Self) -> Self {
         Self(self.0.saturating_sub(done.0))

@@ -69,6 +69,7 @@ impl<T: Precision> YTransform<T> {
         self.length / 2 + 1
     }
 
+    /// Allocates the buffers of one thread.
     pub(crate) fn scratch(&self) -> YScratch<T> {
         let zeros = |n| vec![Complex::default(); n];
         let fft = [&self.forward, &self.inverse].map(|f| f.get_inplace_scratch_len());
@@ -237,7 +238,7 @@ impl<T: Precision> YTransform<T> {
         high.conjugate().store_mirrored(&mut s.cosines[mirrored]);
     }
 
-    /// Inverts [`Self::compute_cosines`].
+    /// Computes the fields from their cosine sums: the inverse of [`Self::compute_cosines`].
     fn invert_cosines(&self, s: &mut YScratch<T>, half: Parity) {
         let n = self.length;
         s.cosines[if half == Parity::Even { n } else { 0 }] = Complex::default();

@@ -18,7 +18,8 @@ pub struct Bar {
 }
 
 impl Bar {
-    /// Combines parts of unknown sign.
+    /// Combines the errors of the cells, of the increments (`path`) and of the solver, whose signs are not
+    /// known, as the root of the sum of squares.
     pub(super) fn new(cells: f64, path: f64, solver: f64) -> Self {
         Self {
             total: cells.hypot(path).hypot(solver),
@@ -28,7 +29,7 @@ impl Bar {
         }
     }
 
-    /// The bar of a number times a factor >= 0.
+    /// The error bar of a number times a constant `factor` >= 0: each part times it.
     pub(super) fn times(&self, factor: f64) -> Self {
         Self {
             total: factor * self.total,
@@ -38,7 +39,7 @@ impl Bar {
         }
     }
 
-    /// The bar of a sum of numbers whose errors may have the same sign.
+    /// The bar of the sum of two numbers. Their errors may have the same sign, so that the parts are added.
     pub(super) fn plus(&self, other: &Self) -> Self {
         Self {
             total: self.total + other.total,
@@ -48,8 +49,8 @@ impl Bar {
         }
     }
 
-    /// Combines the signed error `off` of the cells and their random part `scatter`, and the signed
-    /// error `path` of the increments.
+    /// Builds the bar of a number from signed errors: `off` of the cells, with the random part `scatter`, and
+    /// `path` of the increments. Where `off` and `path` have one sign they are added, otherwise their squares.
     pub(super) fn signed(off: f64, scatter: f64, path: f64, solver: f64) -> Self {
         let together = off.hypot(path).max((off + path).abs());
         Self {

@@ -28,6 +28,7 @@ impl<'a> BranchEnds<'a> {
 }
 
 impl Observer for BranchEnds<'_> {
+    /// Keeps tractions and yielded points at the end of each branch, and passes the call on.
     fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error> {
         if increment.point.ends_branch {
             self.tractions.push(march.tractions());

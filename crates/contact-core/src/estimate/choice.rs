@@ -79,9 +79,10 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
     Ok(chosen)
 }
 
-/// The increments of elastic bodies, each branch with its error, before the path grid is chosen.
+/// Chooses the increments of a scene of elastic bodies by trial runs on a coarse grid, before the path grid is
+/// chosen; each branch gets its estimated error.
 pub(super) fn by_trial(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene, Error> {
-    let mut chosen = begun(scene);
+    let mut chosen = scene_of_first_round(scene);
     if scene.friction.mu == 0.0 {
         // Without friction the pressure depends on the loads alone, not on the path.
         let branches = chosen.path.branches.iter_mut();
@@ -102,8 +103,9 @@ pub(super) fn by_trial(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene, E
     Ok(chosen)
 }
 
-/// The scene with the increments of the first round and its tolerance.
-pub(super) fn begun(scene: &Scene) -> Scene {
+/// The scene to begin the choice with: the increments of the first round, and the tolerance of the whole scene
+/// fixed.
+pub(super) fn scene_of_first_round(scene: &Scene) -> Scene {
     let mut begun = scene.clone();
     begun.settings.solver.tolerance = Some(scene.tolerance());
     let couples = Plan::new(scene).coupling;
@@ -175,7 +177,8 @@ impl Choice {
         }
     }
 
-    /// Rounds until the error of every branch is allowed; returns whether it is.
+    /// Estimates the errors and refines branches, round by round, until the error of every branch is allowed.
+    /// Returns false where [`MOST_ROUNDS`] or [`MOST_INCREMENTS`] are reached before.
     fn settle(&mut self, trial: &mut Trial) -> Result<bool, Error> {
         let last = self.repeats.last();
         let mut until = last;
@@ -200,23 +203,25 @@ impl Choice {
         Ok(false)
     }
 
-    /// The path up to the last branch that repeats no other.
+    /// The path up to the last branch that is no repetition of an earlier one.
     pub(super) fn without_repeats(&self) -> LoadPath {
         let mut part = self.path.clone();
         part.branches.truncate(self.repeats.last() + 1);
         part
     }
 
-    /// Whether these errors are allowed, or nearly: those branches get more increments.
-    pub(super) fn stands(&mut self, errors: &[PathError]) -> bool {
+    /// Refines the branches whose error is too large. Returns whether the choice can stay: the errors were
+    /// allowed, or so nearly that the new increments need no other round.
+    pub(super) fn refine_and_accept(&mut self, errors: &[PathError]) -> bool {
         let unsettled = self.refine(errors);
         self.repeats.fill(&mut self.path.branches);
         unsettled.is_none()
     }
 
-    /// Refines the branches whose error is too large; returns the first that needs another round.
+    /// Gives more increments to the open branches whose error is too large. Returns the first branch whose
+    /// error must be estimated again.
     fn refine(&mut self, errors: &[PathError]) -> Option<usize> {
-        self.see_what_is_inherited(errors);
+        self.lower_error_of_growth(errors);
         // `inherited`: the error of the last growth of contact that is still too large.
         let (mut first, mut inherited) = (None, 0.0);
         for (k, error) in errors.iter().enumerate() {
@@ -235,9 +240,9 @@ impl Choice {
         first
     }
 
-    /// Lowers the allowed error of growths of contact if more increments of a later branch have not
-    /// lowered its error ([`KEPT`]).
-    fn see_what_is_inherited(&mut self, errors: &[PathError]) {
+    /// Lowers the allowed error of growths of contact to the stricter value if more increments of a later
+    /// branch have not lowered its own error ([`KEPT`]): it inherits the error of the growth.
+    fn lower_error_of_growth(&mut self, errors: &[PathError]) {
         let keeps_its_error = |k: usize| {
             let error = errors[k].q;
             self.path.branches[k].spacing != Spacing::EqualRadius
@@ -250,7 +255,8 @@ impl Choice {
         }
     }
 
-    /// The allowed error of branch `k`.
+    /// The largest error that branch `k` may have: a part of the tolerance of the path. Growths of the contact
+    /// at the start may have more, if shear later covers their error.
     fn allowed(&self, k: usize, error: &PathError) -> f64 {
         let part = match self.path.branches[k].spacing {
             Spacing::Uniform | Spacing::ShortFirst => ACCEPTED,
@@ -263,8 +269,8 @@ impl Choice {
     }
 }
 
-/// Sets the increments of a branch for the allowed error, from the order since the last round;
-/// returns whether no other round is needed.
+/// Sets the number of increments for which a branch has the `allowed` error, by the order of convergence since
+/// the round `before` (increments, error). Returns whether the estimate is good enough not to be repeated.
 fn refine(
     branch: &mut Branch,
     error: f64,
@@ -293,16 +299,17 @@ fn refine(
     near
 }
 
-/// The order at which the error of a branch has fallen from one number of increments to another.
+/// The observed order of convergence: error ~ increments^-order, from two rounds (increments, error), within
+/// [`ORDERS`].
 fn order(before: (usize, f64), now: (usize, f64)) -> f64 {
     let fallen = (before.1 / now.1).ln() / (now.0 as f64 / before.0 as f64).ln();
     fallen.clamp(ORDERS.0, ORDERS.1)
 }
 
-/// The increments of the first round. Branches that start without contact have increments of equal
-/// radius; those that shear after a turn of the path a short first increment; those that continue
-/// the direction of the last one, as chords of a curve do, a single increment. Without friction there is no
-/// shear, nor is there as long as bodies without coupling (`couples`) are only pressed: a single increment.
+/// Sets the increments of the first round of all branches that have none: equal radius from no contact; a short
+/// first increment in a branch that shears after a turn of the path; a single increment where the path goes
+/// straight on, as along the chords of a curve, or where nothing can slip. Nothing slips without `friction`,
+/// nor as long as bodies without coupling (`couples` false) are only pressed.
 fn begin(path: &mut LoadPath, friction: bool, couples: bool) {
     let mut touches = false;
     let mut only_pressed = true;
@@ -330,7 +337,7 @@ fn begin(path: &mut LoadPath, friction: bool, couples: bool) {
     }
 }
 
-/// The change of the loads, or of the motions in their place, in branch `k`.
+/// The change of the loads in branch `k`, or of the motions where these are given.
 fn step(branches: &[Branch], k: usize) -> Loads {
     let before = k
         .checked_sub(1)

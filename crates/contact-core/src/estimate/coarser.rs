@@ -43,7 +43,8 @@ pub(super) struct GridErrors {
     pub(super) residual: f64,
 }
 
-/// For the branches of a run that ended with these tractions.
+/// Solves the scene on coarser grids and compares: differences of the numbers and of the tractions at the ends
+/// of the branches from the run `fine`, which ended there with `tractions`.
 pub(super) fn coarser_grids(
     scene: &Scene,
     fine: &[BranchSummary],
@@ -143,8 +144,8 @@ pub fn coarsest(scene: &Scene) -> Result<Scene, Error> {
     coarser(scene, PARTS[1])
 }
 
-/// The scene with a part of its cells each way, odd numbers staying odd, so that the middle of the
-/// grid stays the centre of a cell; a strip keeps its one row.
+/// The scene on a grid of the same extent with `part` (0 to 1) of the cells along each side. Odd numbers of
+/// cells stay odd, so that the middle of the grid stays the centre of a cell; a strip keeps its one row.
 fn coarser(scene: &Scene, part: f64) -> Result<Scene, Error> {
     let grid = &scene.grid;
     let fewer = |n: usize| {
@@ -181,13 +182,13 @@ fn coarser(scene: &Scene, part: f64) -> Result<Scene, Error> {
     Ok(coarse)
 }
 
-/// Whether half of the cells each way makes cells twice as large.
+/// Whether both sides can be divided into cells twice as large, with an even number of them.
 fn halves(grid: &Grid) -> bool {
     let even = |n: usize| n.is_multiple_of(4);
     even(grid.nx) && even(grid.ny) && !grid.plane_strain
 }
 
-/// Ratio of the cells of two grids, geometric mean of both axes.
+/// Ratio of the cell sizes of two grids, the geometric mean along x and y.
 fn ratio(grid: &Grid, finer: &Grid) -> f64 {
     let along_x = grid.dx / finer.dx;
     if grid.plane_strain {
@@ -197,7 +198,8 @@ fn ratio(grid: &Grid, finer: &Grid) -> f64 {
     }
 }
 
-/// The distances of pressures and shears at the ends of the branches, over the largest of the path.
+/// Distances of pressure and of shear between two runs at the end of each branch: root of the sum of squares on
+/// the coarse cells, over the largest of the path.
 fn distances(fine: &[Tractions], coarse: &[Tractions]) -> Vec<[f64; 2]> {
     let norm = |f: &Array2<f64>| f.iter().map(|f| f * f).sum::<f64>();
     let [p, q] = coarse.iter().fold([f64::MIN_POSITIVE; 2], |[p, q], of| {

@@ -155,7 +155,7 @@ pub fn error_bars(
         .map(|(k, ((fine, of_grids), path))| {
             let of_finer = finer.as_ref().map(|finer| Differs {
                 ratio: finer.ratio,
-                off: finer.off[k],
+                differences: finer.differences[k],
                 tolerance: finer.tolerance,
             });
             bars(scene, fine, &of_grids, &path, of_finer.as_ref())
@@ -168,12 +168,13 @@ struct Differs {
     /// Refinement factor of the finer grid.
     ratio: f64,
     /// The numbers minus the numbers on the finer grid, each in its unit.
-    off: [f64; NUMBERS],
+    differences: [f64; NUMBERS],
     /// Tolerance of both runs.
     tolerance: f64,
 }
 
-/// The error bars of a branch.
+/// The error bars of one branch: of its numbers in the run `fine`, from the differences to coarser grids
+/// (`of_grids`), to other increments (`path`) and, if there is one, to a finer grid (`finer`).
 fn bars(
     scene: &Scene,
     fine: &BranchSummary,
@@ -211,7 +212,7 @@ fn bars(
                 let remaining = finer.ratio.powf(-ORDER[n]);
                 let scatter = (remaining * of_grids.numbers[n]).hypot(least);
                 Bar::signed(
-                    finer.off[n] / (1.0 - remaining),
+                    finer.differences[n] / (1.0 - remaining),
                     scatter,
                     path.numbers[n],
                     solver,

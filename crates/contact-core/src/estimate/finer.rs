@@ -27,19 +27,21 @@ pub(crate) struct Finer {
     /// Refinement factor of the finer grid.
     pub(crate) ratio: f64,
     /// The numbers minus the numbers on the finer grid, each in its unit.
-    pub(crate) off: Vec<[f64; NUMBERS]>,
+    pub(crate) differences: Vec<[f64; NUMBERS]>,
     /// Tolerance of both runs.
     pub(crate) tolerance: f64,
 }
 
 impl Finer {
-    /// For a scene whose increments are chosen. None if a finer grid is too large, if bodies yield, whose
-    /// volume grid has at most as many cells, or if its run fails; fails only once `stop` is raised.
+    /// Solves the path in few increments on this grid and on a finer one, and keeps the differences of the
+    /// numbers at the end of each branch. The increments of the scene must be chosen. None if a finer grid is
+    /// too large, if bodies yield (their volume grid has at most as many cells), or if a run fails. Fails only
+    /// if `stop` is raised.
     pub(crate) fn solve(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Option<Self>, Error> {
         let Some(fine) = finest(scene).filter(|_| !scene.yields()) else {
             return Ok(None);
         };
-        let few = Scene {
+        let coarse_scene = Scene {
             grid: scene.grid,
             body1: scene.body1.clone(),
             body2: scene.body2.clone(),
@@ -52,15 +54,15 @@ impl Finer {
                 .map(numbers)
                 .collect::<Vec<_>>())
         };
-        match solved(&few).and_then(|ours| Ok((ours, solved(&fine)?))) {
+        match solved(&coarse_scene).and_then(|ours| Ok((ours, solved(&fine)?))) {
             Err(error @ Error::Interrupted { .. }) => Err(error),
             Err(_) => Ok(None),
             Ok((ours, theirs)) => {
                 let pairs = ours.iter().zip(&theirs);
-                let off = pairs.map(|(f, g)| std::array::from_fn(|n| f[n] - g[n]));
+                let differences = pairs.map(|(f, g)| std::array::from_fn(|n| f[n] - g[n]));
                 Ok(Some(Self {
                     ratio: scene.grid.dx / fine.grid.dx,
-                    off: off.collect(),
+                    differences: differences.collect(),
                     tolerance: fine.tolerance(),
                 }))
             }
@@ -68,8 +70,8 @@ impl Finer {
     }
 }
 
-/// The scene in few increments on the finer grid of the error estimate, if there is one. Error bars
-/// need its memory besides the memory of the run.
+/// The scene in few increments on the finer grid of the error estimate; none where that would be too large.
+/// Error bars need its memory besides the memory of the run.
 pub fn finest(scene: &Scene) -> Option<Scene> {
     let grids = TIMES.map(|times| refined(&scene.grid, times));
     let grid = grids
@@ -89,7 +91,7 @@ pub fn finest(scene: &Scene) -> Option<Scene> {
     Some(fine)
 }
 
-/// The grid of `times` the cells each way; a strip keeps its one row.
+/// The grid of the same extent with `times` as many cells along each side; a strip keeps its one row.
 fn refined(grid: &Grid, times: usize) -> Grid {
     let part = 1.0 / times as f64;
     let (ny, dy) = if grid.plane_strain {

@@ -47,7 +47,8 @@ pub fn first_yield(scene: &Scene) -> Result<Option<FirstYield>, Error> {
     Ok(first_yield)
 }
 
-/// The scene under a normal load alone, on a grid of another size.
+/// The scene without friction under the normal load `W` \[N\] alone, on a grid of `size` times its extent and at
+/// most [`CELLS`] cells along a side.
 fn trial(scene: &Scene, W: f64, size: f64) -> Scene {
     let grid = scene.grid;
     let cells = |n: usize| if n > CELLS { CELLS } else { n };
@@ -78,7 +79,8 @@ fn trial(scene: &Scene, W: f64, size: f64) -> Scene {
     trial
 }
 
-/// Largest stress of von Mises over the yield stress of its layer, and where.
+/// Largest stress of von Mises over the yield stress of its layer in the contact of a trial, and where it is;
+/// none where nothing can yield.
 fn worst(trial: &Scene) -> Result<Option<(f64, FirstYield)>, Error> {
     let mut march = March::new(&trial.elastic())?;
     let Some(increment) = march.advance() else {

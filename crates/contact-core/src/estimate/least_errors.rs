@@ -39,7 +39,8 @@ const RING_ENERGY: f64 = 0.024;
 /// by 1e-4 of the yield stress.
 pub(super) const RETURNED: f64 = 1e-3;
 
-/// Error of each number within a tolerance, in its unit: for most numbers tol times the number.
+/// Error of each number of a branch by the solver's tolerance, in the unit of the number: for most of them the
+/// tolerance times the number.
 ///
 /// A motion or a load that vanishes has the error [`BranchSummary::insignificant_sizes`].
 ///
@@ -128,7 +129,7 @@ pub(super) fn radius_of_spots(scene: &Scene, fine: &BranchSummary) -> f64 {
     0.5 * radius * (whole + spots.real_area_error()) / area
 }
 
-/// Uncertainty of the place of the rim \[m\].
+/// Uncertainty of the position of the rim \[m\], a fixed part of a cell.
 pub(super) fn rim(scene: &Scene) -> f64 {
     let bodies = [&scene.body1, &scene.body2];
     let is_coated = bodies.iter().any(|body| !body.coatings.is_empty());

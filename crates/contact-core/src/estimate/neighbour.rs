@@ -16,7 +16,7 @@
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::choice::{Choice, begun, by_trial, choose_increments};
+use super::choice::{Choice, by_trial, choose_increments, scene_of_first_round};
 use super::path_grid::choose_path_grid;
 use super::trial::Trial;
 use super::two_runs::PathError;
@@ -39,12 +39,13 @@ struct Known {
 }
 
 impl Known {
-    /// Chosen and compared.
+    /// Chooses the increments of a scene, and measures how much half of them changes the shear at the end of
+    /// each branch.
     fn new(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
         let chosen = by_trial(scene, stop)?;
-        let mut trial = Trial::of_half(&chosen, None, stop)?;
+        let mut trial = Trial::for_halved_increments(&chosen, None, stop)?;
         let path = Choice::new(scene, chosen.path.clone()).without_repeats();
-        let changes = trial.errors(&halved(path), |_| true)?;
+        let changes = trial.errors(&with_half_increments(path), |_| true)?;
         Ok(Self {
             chosen,
             cells: trial.cells(),
@@ -52,7 +53,8 @@ impl Known {
         })
     }
 
-    /// Returns the data of a scene, computed once in a process.
+    /// Returns what is known of a scene whose increments are to be taken over; it is computed once in a
+    /// process.
     fn get_or_compute(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Arc<Self>, Error> {
         let store = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
         let find_cached = |all: &[(Scene, Arc<Self>)]| {
@@ -89,28 +91,29 @@ pub fn choose_increments_like(
     if neighbour.check().is_err() {
         return choose_increments(scene, stop);
     }
-    let neighbour_data = match Known::get_or_compute(&plain(neighbour), stop) {
+    let neighbour_data = match Known::get_or_compute(&without_title(neighbour), stop) {
         Ok(known) => known,
         Err(error @ Error::Interrupted { .. }) => return Err(error),
         // A neighbour without a solution gives no estimate for the scene.
         Err(_) => return choose_increments(scene, stop),
     };
-    let scene_alone = plain(scene);
-    let path_if_found = if plain(neighbour) == scene_alone {
+    let scene_alone = without_title(scene);
+    let path_if_found = if without_title(neighbour) == scene_alone {
         Some(neighbour_data.chosen.path.clone())
     } else {
-        checked(scene, &neighbour_data, stop)?
+        path_of_neighbour(scene, &neighbour_data, stop)?
     };
     let Some(path) = path_if_found else {
         return choose_increments(scene, stop);
     };
-    let mut chosen = begun(scene);
+    let mut chosen = scene_of_first_round(scene);
     chosen.path = path;
     choose_path_grid(&mut chosen, stop)?;
     Ok(chosen)
 }
 
-/// Whether all increments of a scene are to be chosen by trial.
+/// Whether all increments of a scene are to be chosen by trial, and a neighbour's can be tried: Coulomb
+/// friction that does not change along the path, elastic bodies.
 fn is_open(scene: &Scene) -> bool {
     let mut branches = scene.path.branches.iter();
     branches.all(|branch| branch.increments.is_none())
@@ -119,20 +122,21 @@ fn is_open(scene: &Scene) -> bool {
         && !scene.yields()
 }
 
-/// The scene without what does not change its increments.
-fn plain(scene: &Scene) -> Scene {
+/// The scene without its title, which does not change its increments: the key of the cache.
+fn without_title(scene: &Scene) -> Scene {
     let mut plain = scene.clone();
     plain.title.clear();
     plain
 }
 
-/// The path with the increments of a neighbour, if one comparison allows them.
-fn checked(
+/// The path of the scene with the increments of its neighbour, if one comparison confirms that its errors are
+/// allowed; none otherwise, or where the two paths are of different kinds.
+fn path_of_neighbour(
     scene: &Scene,
     known: &Known,
     stop: &Arc<AtomicBool>,
 ) -> Result<Option<LoadPath>, Error> {
-    let mut begun = begun(scene);
+    let mut begun = scene_of_first_round(scene);
     let of_neighbour = &known.chosen.path.branches;
     let kinds = begun.path.branches.iter().zip(of_neighbour);
     let cells = |of: &Scene| (of.grid.nx, of.grid.ny, of.grid.plane_strain);
@@ -152,8 +156,8 @@ fn checked(
     if path.branches.len() != known.changes.len() {
         return Ok(None);
     }
-    let mut trial = Trial::of_half(&begun, Some(known.cells), stop)?;
-    let changes = match trial.errors(&halved(path), |_| true) {
+    let mut trial = Trial::for_halved_increments(&begun, Some(known.cells), stop)?;
+    let changes = match trial.errors(&with_half_increments(path), |_| true) {
         Ok(changes) => changes,
         Err(error @ Error::Interrupted { .. }) => return Err(error),
         Err(_) => return Ok(None),
@@ -168,12 +172,12 @@ fn checked(
             ratio.is_finite().then(|| change.times(ratio))
         })
         .collect();
-    let stands = errors.is_some_and(|errors| choice.stands(&errors));
+    let stands = errors.is_some_and(|errors| choice.refine_and_accept(&errors));
     Ok(stands.then_some(choice.path))
 }
 
-/// The path with half of the increments.
-fn halved(mut path: LoadPath) -> LoadPath {
+/// The path with half of the increments in each branch, at least one.
+fn with_half_increments(mut path: LoadPath) -> LoadPath {
     for branch in &mut path.branches {
         branch.set_equal_increments((branch.equal_increments() / 2).max(1));
     }

@@ -18,7 +18,7 @@ pub(crate) const PLASTIC: usize = LOADS + 6;
 /// How many there are.
 pub(crate) const NUMBERS: usize = PLASTIC + 3;
 
-/// The numbers of a branch that have an error bar.
+/// The numbers of a branch that get an error bar, in a fixed order.
 pub(crate) fn numbers(branch: &BranchSummary) -> [f64; NUMBERS] {
     let mut numbers = [0.0; NUMBERS];
     numbers[CONTACT_RADIUS] = branch.contact_radius;
@@ -39,8 +39,8 @@ pub(crate) fn numbers(branch: &BranchSummary) -> [f64; NUMBERS] {
     numbers
 }
 
-/// Whether the path gives a number of a branch, which then has no error: of each pair of motion and
-/// load one is given.
+/// Whether a number of a branch is prescribed by the path and so has no error: of each motion and its load one
+/// is given.
 pub(crate) fn is_given(branch: &BranchSummary, number: usize) -> bool {
     let is_prescribed = branch.loads.given.motions().map(|motion| motion.is_some());
     match number.checked_sub(MOTIONS) {

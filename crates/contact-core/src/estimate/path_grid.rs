@@ -129,8 +129,8 @@ pub(super) fn path_grid_errors(
     Ok(errors.map(|error| error.times(factor)).collect())
 }
 
-/// Whether enough increments can be solved on the path grid alone: those that do not end a branch
-/// and change no normal force or tilting moment.
+/// Whether a path grid saves work: whether enough increments can be solved on it alone, those that do not end a
+/// branch and change no normal force or tilting moment.
 fn pays(scene: &Scene) -> bool {
     let branches = &scene.path.branches;
     let across = |k: usize| (branches[k].to.forces(), branches[k].to.given.motions());
@@ -146,7 +146,8 @@ fn pays(scene: &Scene) -> bool {
         && taken_over as f64 >= TAKEN_OVER * scene.path.increments() as f64
 }
 
-/// e(N, ratio N) over e(T, 2 T) of the `tried` cells T.
+/// Ratio of the errors e(N, ratio N)/e(T, 2 T) by which the error of a path grid of `cells` N follows from the
+/// trial on T = `tried` cells.
 fn extrapolation(tried: usize, cells: usize, ratio: usize) -> f64 {
     let halvings = (0..ratio.ilog2()).map(|k| (-ORDER * f64::from(k)).exp2());
     (tried as f64 / cells as f64).powf(ORDER) * halvings.sum::<f64>()

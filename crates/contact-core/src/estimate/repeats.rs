@@ -20,29 +20,30 @@ impl Repeats {
         Self::find(branches.len(), alike)
     }
 
-    /// Branches that end at the same loads, wherever they begin.
+    /// Finds branches that end at the same loads, wherever they begin.
     pub(super) fn of_ends(branches: &[Branch]) -> Self {
         Self::find(branches.len(), |k, other| {
             branches[k].to == branches[other].to
         })
     }
 
+    /// For each branch the first one that is `alike`, itself if there is no earlier one.
     fn find(branches: usize, alike: impl Fn(usize, usize) -> bool) -> Self {
         let first = |k| (0..k).find(|&other| alike(k, other)).unwrap_or(k);
         Self((0..branches).map(first).collect())
     }
 
-    /// Fallback where no branch repeats another.
+    /// Returns the case in which no branch repeats another.
     pub(super) fn none(path: &LoadPath) -> Self {
         Self((0..path.branches.len()).collect())
     }
 
-    /// The last branch that repeats no other: those after it are known from those up to it.
+    /// Index of the last branch that repeats no earlier one; all later ones are known from those up to it.
     pub(super) fn last(&self) -> usize {
         self.0.iter().copied().max().unwrap_or_default()
     }
 
-    /// Gives branches the increments and the errors of those that they repeat.
+    /// Copies increments and errors to each branch from the one that it repeats.
     pub(super) fn fill(&self, branches: &mut [Branch]) {
         for (k, &of) in self.0.iter().enumerate() {
             let Branch {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use super::numbers::Q_MAX;
-use super::two_runs::{PathError, TwoRuns, of_trial};
+use super::two_runs::{PathError, TwoRuns, increment_of_trial};
 use crate::error::Error;
 use crate::march::March;
 use crate::scene::{Branch, Dependence, Grid, LoadPath, PathGrid, Scene, Spacing};
@@ -59,22 +59,23 @@ pub(crate) struct Trial {
 impl Trial {
     /// Sets up the runs on the coarsest grid of halvings on which the contact has at least [`CONTACT`] cells.
     pub(crate) fn new(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
-        Self::on_one_of(halvings(scene), scene, SOLVER_SHARE, stop)
+        Self::on_coarsest_sufficient(halved_grids(scene), scene, SOLVER_SHARE, stop)
     }
 
-    /// For half of the increments and of the substeps of growth, on so many cells. If none are given,
-    /// smooth bodies are solved on [`FEW`] along the shorter side where no grid of halvings has as few.
-    pub(crate) fn of_half(
+    /// Sets up runs with half of the substeps of growth, for a comparison of halved increments, on a grid of
+    /// `cells` along x and y. By default that is the coarsest of the halvings with enough contact cells; for
+    /// smooth bodies also a grid of [`FEW`] cells along the shorter side.
+    pub(crate) fn for_halved_increments(
         scene: &Scene,
         cells: Option<(usize, usize)>,
         stop: &Arc<AtomicBool>,
     ) -> Result<Self, Error> {
-        let mut grids = halvings(scene);
+        let mut grids = halved_grids(scene);
         match cells {
             Some(cells) => grids = vec![with_cells(&scene.grid, cells)],
-            None => grids.extend(grids.last().and_then(|grid| few(scene, grid))),
+            None => grids.extend(grids.last().and_then(|grid| grid_of_few_cells(scene, grid))),
         }
-        let mut trial = Self::on_one_of(grids, scene, HALF_SHARE, stop)?;
+        let mut trial = Self::on_coarsest_sufficient(grids, scene, HALF_SHARE, stop)?;
         trial.growth_steps /= 2;
         Ok(trial)
     }
@@ -84,9 +85,9 @@ impl Trial {
         self.cells
     }
 
-    /// Sets up the runs on the last of these grids on which the contact has enough cells, to this share of the
-    /// tolerance of the path.
-    fn on_one_of(
+    /// Sets up the runs on the coarsest of the `grids` (finest first) on which the contact has enough cells,
+    /// the finest if none has, with the tolerance `share` times the tolerance of the path.
+    fn on_coarsest_sufficient(
         mut grids: Vec<Grid>,
         scene: &Scene,
         share: f64,
@@ -134,7 +135,8 @@ impl Trial {
         })
     }
 
-    /// Estimated errors at the end of each branch, from the increments of the `varied` branches.
+    /// Estimated errors at the end of each branch, from the change when the increments of the `varied` branches
+    /// are halved (or doubled, where there are too few to halve).
     pub(crate) fn errors(
         &mut self,
         path: &LoadPath,
@@ -172,7 +174,7 @@ impl Trial {
             if grows {
                 grown = change.q;
             }
-            let whole = self.whole(&change, grown);
+            let whole = self.change_on_scene_grid(&change, grown);
             // Shift and energy near sliding are dominated by the last increments: first order.
             let order = if change.is_near_sliding() {
                 SLIDING_ORDER
@@ -197,9 +199,10 @@ impl Trial {
         Ok(branches.enumerate().map(of_path).collect())
     }
 
-    /// The change of the shear on the grid of the scene, of which `grown` may be left from the growth of
-    /// the contact: the rest is larger than here where the ring of slip has fewer than [`RING`] cells.
-    fn whole(&self, change: &PathError, grown: f64) -> f64 {
+    /// The `change` of the shear as it would be on the grid of the scene. Where the ring of slip has fewer than
+    /// [`RING`] cells of the trial grid, the trial shows too little of it. The part `grown`, left from the
+    /// growth of the contact, does not depend on the grid.
+    fn change_on_scene_grid(&self, change: &PathError, grown: f64) -> f64 {
         let cells = (change.ring / self.cell).max(1.0);
         let unseen = (RING / cells).min(self.ratio);
         if unseen <= 1.0 {
@@ -217,13 +220,13 @@ fn max_contact_cells(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<usize, Err
     let mut march = March::until(scene, stop)?;
     let mut largest_area = 0.0_f64;
     while let Some(increment) = march.advance() {
-        largest_area = largest_area.max(of_trial(increment)?.contact_area);
+        largest_area = largest_area.max(increment_of_trial(increment)?.contact_area);
     }
     Ok((largest_area / cell_area).round() as usize)
 }
 
 /// The grid of a scene and the coarser ones that it can be halved to.
-fn halvings(scene: &Scene) -> Vec<Grid> {
+fn halved_grids(scene: &Scene) -> Vec<Grid> {
     let mut grids = vec![scene.grid];
     while let Some(coarse) = grids.last().and_then(halved) {
         grids.push(coarse);
@@ -231,8 +234,9 @@ fn halvings(scene: &Scene) -> Vec<Grid> {
     grids
 }
 
-/// A grid of [`FEW`] cells along its shorter side, for smooth bodies.
-fn few(scene: &Scene, grid: &Grid) -> Option<Grid> {
+/// A grid of [`FEW`] cells along its shorter side. None where the grid is no finer, in plane strain, or if the
+/// bodies are not smooth.
+fn grid_of_few_cells(scene: &Scene, grid: &Grid) -> Option<Grid> {
     let Grid { nx, ny, .. } = *grid;
     let shorter = nx.min(ny);
     if shorter <= FEW || grid.plane_strain || !scene.is_sum_of_paraboloids() {
@@ -242,7 +246,7 @@ fn few(scene: &Scene, grid: &Grid) -> Option<Grid> {
     Some(with_cells(grid, (cells(nx), cells(ny))))
 }
 
-/// The grid cut into so many cells.
+/// The grid of the same extent with these numbers of cells along x and y.
 fn with_cells(grid: &Grid, (nx, ny): (usize, usize)) -> Grid {
     let (length, width) = grid.extent();
     Grid {
@@ -258,7 +262,8 @@ fn with_cells(grid: &Grid, (nx, ny): (usize, usize)) -> Grid {
     }
 }
 
-/// The grid of half as many cells each way, if that is fine enough.
+/// The grid of the same extent with half as many cells along each side; none where the number is odd, or too
+/// few cells would be left.
 fn halved(grid: &Grid) -> Option<Grid> {
     let Grid { nx, ny, dx, dy, .. } = *grid;
     let line = grid.plane_strain;

@@ -50,8 +50,8 @@ impl PathError {
         self.driven && self.reached > SLIDING * self.bearable
     }
 
-    /// The error by which increments are chosen: the one of the shear, near full sliding also the one of
-    /// shift and energy.
+    /// The error by which increments are chosen: of the shear; near full sliding the larger of it and the
+    /// scaled error of shift and energy.
     pub(crate) fn chosen_by(&self) -> f64 {
         if self.is_near_sliding() {
             self.q.max(self.motion / RUN_AWAY)
@@ -85,6 +85,7 @@ pub(crate) struct TwoRuns {
 }
 
 impl TwoRuns {
+    /// Sets up two runs, one for few increments and one for many.
     pub(crate) fn new(few: &Scene, many: &Scene, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
         Ok(Self {
             few: Run::new(few, stop)?,
@@ -95,25 +96,25 @@ impl TwoRuns {
         })
     }
 
-    /// Substeps of growing contacts.
+    /// Substeps in which contacts grow.
     pub(crate) fn growth_steps(&self) -> usize {
         self.many.growth_steps
     }
 
-    /// Sets the substeps of growing contacts of both runs.
+    /// Sets the substeps in which contacts grow, of the run in few and of the run in many increments.
     pub(crate) fn grow_in(&mut self, [few, many]: [usize; 2]) {
         self.few.grow_in(few);
         self.many.grow_in(many);
     }
 
-    /// Takes the end of an indentation from what the stick zone remembers in both runs, on the grid of
-    /// its path or on its own; returns whether it is a function of the radius.
+    /// Solves the end of an indentation in many increments again, from what the stick zone remembers on its own
+    /// grid; returns whether the scene allows this.
     pub(crate) fn remember(&mut self) -> bool {
         self.many.march.remember_on_its_grid()
     }
 
-    /// Solves the first branches of a path, which differ between the runs in the grid of
-    /// their path, once.
+    /// Solves the first `branches` of a path once for both runs, which differ only in the grid of their path
+    /// there.
     pub(crate) fn share(&mut self, path: &LoadPath, branches: usize) -> Result<(), Error> {
         let mut first = path.clone();
         first.branches.truncate(branches);
@@ -122,7 +123,8 @@ impl TwoRuns {
         Ok(())
     }
 
-    /// The change at the end of each branch from few increments to many, side by side.
+    /// Solves the path in few and in many increments in parallel; returns the change between them at the end of
+    /// each branch.
     pub(crate) fn change(
         &mut self,
         few: &LoadPath,
@@ -132,7 +134,7 @@ impl TwoRuns {
         let (few, many) = (few?, many?);
         for end in many {
             let (p, q) = self.largest;
-            self.largest = (p.max(end.p()), q.max(end.q()));
+            self.largest = (p.max(end.pressure_norm()), q.max(end.shear_norm()));
             let (shift, energy) = self.moved;
             let Motion {
                 delta_x, delta_y, ..
@@ -174,8 +176,8 @@ impl TwoRuns {
                     residual: change_of_residual(many, Some(few)) / largest,
                     numbers: std::array::from_fn(|n| f[n] - m[n]),
                     driven: prescribed.delta_x.is_none() && prescribed.delta_y.is_none(),
-                    reached: many.q() / q,
-                    bearable: self.mu * many.p() / q,
+                    reached: many.shear_norm() / q,
+                    bearable: self.mu * many.pressure_norm() / q,
                     ring: if many.summary.contact_radius > 0.0 {
                         (1.0 - many.summary.stick_ratio.sqrt()) * many.summary.contact_radius
                     } else {
@@ -208,6 +210,7 @@ struct End {
 }
 
 impl Run {
+    /// Sets up a run that has solved nothing yet.
     fn new(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
         let march = March::until(scene, stop)?;
         Ok(Self {
@@ -217,7 +220,7 @@ impl Run {
         })
     }
 
-    /// Sets the substeps of growing contacts; another number discards the known ends.
+    /// Sets the substeps in which contacts grow. A change discards the solved branches.
     fn grow_in(&mut self, steps: usize) {
         if self.growth_steps != steps {
             self.growth_steps = steps;
@@ -226,22 +229,23 @@ impl Run {
         }
     }
 
-    /// Solves the path; returns the ends of its branches.
+    /// Solves the path, from the end of the last branch that is known already; returns the ends of all its
+    /// branches.
     fn solve_path(&mut self, path: &LoadPath) -> Result<&[End], Error> {
         let kept_ends = self.ends.iter().zip(&path.branches);
-        let kept_ends = kept_ends.take_while(|(end, branch)| end.branch == unjudged(branch));
+        let kept_ends = kept_ends.take_while(|(end, branch)| end.branch == without_error(branch));
         self.ends.truncate(kept_ends.count());
         let state = self.ends.last().map(|end| end.state.clone());
         self.march.go_along(path, state);
         let mut increments = Vec::new();
         while let Some(increment) = self.march.advance() {
-            let increment = of_trial(increment)?;
+            let increment = increment_of_trial(increment)?;
             increments.push(increment);
             if increment.point.ends_branch {
                 let tractions = self.march.tractions();
                 self.ends
                     .extend(summarise(&increments).pop().map(|summary| End {
-                        branch: unjudged(&path.branches[increment.point.branch]),
+                        branch: without_error(&path.branches[increment.point.branch]),
                         state: self.march.state().clone(),
                         summary,
                         tractions,
@@ -253,8 +257,8 @@ impl Run {
     }
 }
 
-/// The branch without its error.
-fn unjudged(branch: &Branch) -> Branch {
+/// The branch without its estimated error, to compare what is to be solved.
+fn without_error(branch: &Branch) -> Branch {
     Branch {
         path_error: None,
         ..*branch
@@ -262,23 +266,25 @@ fn unjudged(branch: &Branch) -> Branch {
 }
 
 impl End {
-    /// Without the state of a path grid.
+    /// The end of a branch without the state of the path grid.
     fn on_the_grid_alone(mut self) -> Self {
         self.state.along = None;
         self
     }
 
-    fn p(&self) -> f64 {
+    /// Norm of the pressure \[Pa\], root of the sum of squares over the cells.
+    fn pressure_norm(&self) -> f64 {
         norm(&self.tractions[0])
     }
 
-    fn q(&self) -> f64 {
+    /// Norm of the shear \[Pa\], root of the sum of squares over the cells.
+    fn shear_norm(&self) -> f64 {
         norm(&self.tractions[1]).hypot(norm(&self.tractions[2]))
     }
 }
 
-/// Part of the largest shear traction that another run does not confirm \[Pa\]:
-/// max |q| - max (|q| - |q - q'|).
+/// The part of the largest shear traction that another run does not confirm \[Pa\]: max |q| - max (|q| - |q -
+/// q'|).
 ///
 /// Cells that enter the contact within an increment keep a shear that belongs to its end. The error is a
 /// ripple with peaks at the borders of the increments. It falls like n^-1/2 at the peaks, while the
@@ -294,12 +300,13 @@ fn unconfirmed_peak([_, x, y]: &Tractions, [_, other_x, other_y]: &Tractions) ->
     largest - confirmed
 }
 
+/// Root of the sum of squares of a field.
 fn norm(f: &Array2<f64>) -> f64 {
     f.iter().map(|f| f * f).sum::<f64>().sqrt()
 }
 
-/// An increment of a trial; an interruption counts as one before the first increment of the run.
-pub(crate) fn of_trial(increment: Result<Increment, Error>) -> Result<Increment, Error> {
+/// Passes on an increment of a trial. An interruption counts as one before the first increment of the run.
+pub(crate) fn increment_of_trial(increment: Result<Increment, Error>) -> Result<Increment, Error> {
     increment.map_err(|error| match error {
         Error::Interrupted { .. } => Error::Interrupted { increment: 0 },
         error => error,

@@ -19,7 +19,8 @@ pub struct EllipticIntegrals {
     pub D: f64,
 }
 
-/// Complete elliptic integrals for the complementary modulus 0 < `k_prime` <= 1.
+/// Complete elliptic integrals for the complementary modulus 0 < `k_prime` <= 1, by the arithmetic-geometric
+/// mean.
 pub fn elliptic_integrals(k_prime: f64) -> EllipticIntegrals {
     // c_0 = k; c_(n+1) = c_n^2/(4 a_(n+1)); K - E = K sum 2^(n-1) c_n^2. Here everything is over
     // k^2, which may vanish: `ratio` is c_n^2/k^2.

@@ -102,7 +102,8 @@ impl LineContact {
     }
 }
 
-/// McEwen's m, n (n with the sign of x) and m^2 + n^2.
+/// The confocal coordinates m and n of McEwen at (x, z) below a contact of half-width `a` \[m\], n with the
+/// sign of x, and m^2 + n^2.
 fn confocal(a: f64, x: f64, z: f64) -> (f64, f64, f64) {
     let difference = a * a - x * x + z * z;
     let sum = difference.hypot(2.0 * x * z);

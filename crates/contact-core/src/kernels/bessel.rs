@@ -21,7 +21,7 @@ pub(crate) fn bessel(t: f64) -> [f64; 4] {
     [j0, j1, j2, j3]
 }
 
-/// Power series of J_n, for small t.
+/// Sums the power series of the Bessel function J_n, for small t.
 fn series(n: i32, t: f64) -> f64 {
     let half = t / 2.0;
     let factorial: f64 = (1..=n).map(f64::from).product();

@@ -22,6 +22,8 @@ pub(crate) struct Key {
 }
 
 impl Key {
+    /// The key of the coefficients of a body: layers (`bare`: only the substrate), grid, method, tolerance and
+    /// the set of coefficients, bit by bit.
     pub(crate) fn new(
         body: &Body,
         grid: &Grid,
@@ -55,7 +57,7 @@ type Entries = Vec<(Key, Arc<InfluenceCoefficients>)>;
 /// The entries, least recently used first.
 static ENTRIES: LazyLock<Mutex<Entries>> = LazyLock::new(Mutex::default);
 
-/// The coefficients of a `key`, if they are in the cache.
+/// The coefficients cached under a key, if there are any.
 pub(crate) fn get(key: &Key) -> Option<Arc<InfluenceCoefficients>> {
     let mut entries = ENTRIES.lock().unwrap_or_else(PoisonError::into_inner);
     let index = entries.iter().position(|(k, _)| k == key)?;

@@ -45,7 +45,8 @@ impl Cell {
         (nx <= MOST_NODES && ny <= MOST_NODES).then_some((nx, ny))
     }
 
-    /// Calls `f` with each node's x, y and weight \[m^2\].
+    /// Calls `f` with x, y \[m\] and weight \[m^2\] of each node of a product Gauss rule over the cell;
+    /// `orders` are the numbers of nodes along x and y.
     pub(crate) fn nodes(&self, orders: (usize, usize), mut f: impl FnMut(f64, f64, f64)) {
         for (tx, wx) in gauss(orders.0) {
             for (ty, wy) in gauss(orders.1) {
@@ -55,7 +56,8 @@ impl Cell {
         }
     }
 
-    /// Calls `f` with the nodes of parts of the cell that are small enough for the function's scale zeta.
+    /// Calls `f` with the Gauss nodes (x, y, weight \[m^2\]) of the cell, which is halved until its parts are
+    /// small against the scale `zeta` \[m\] of the integrand.
     pub fn nodes_of_parts(&self, zeta: f64, tolerance: f64, f: &mut impl FnMut(f64, f64, f64)) {
         if let Some(orders) = self.orders(zeta, tolerance) {
             self.nodes(orders, f);

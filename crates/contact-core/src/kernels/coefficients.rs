@@ -37,8 +37,7 @@ pub struct InfluenceCoefficients {
     pub yz: Quadrant,
 }
 
-/// The norm of a kernel on the whole plane, root of the sum of squares, of which these are a
-/// quarter \[m/Pa\].
+/// The norm of a kernel over all offsets \[m/Pa\], root of the sum of squares, from the offsets >= 0.
 pub(crate) fn norm(quarter: &Quadrant) -> f64 {
     2.0 * quarter.iter().map(|k| k * k).sum::<f64>().sqrt()
 }
@@ -71,7 +70,7 @@ impl InfluenceCoefficients {
         self
     }
 
-    /// Keeps the coefficients of a set.
+    /// Empties the coefficients that are not in a set.
     pub(crate) fn keep_only(mut self, set: KernelSet) -> Self {
         if set != KernelSet::All {
             (self.xz, self.yz) = (empty_quadrant(), empty_quadrant());
@@ -146,7 +145,8 @@ pub(super) fn empty_quadrant() -> Quadrant {
     Quadrant::zeros((0, 0))
 }
 
-/// The coefficient at (a - nx + 1, b - ny + 1) cells, by its parity along x and y.
+/// The coefficient at the index (a, b) of the full table, which is the offset (a - nx + 1, b - ny + 1) in
+/// cells, from the offsets >= 0 and the parity (`odd`) along x and y.
 pub(super) fn at_offset(part: &Quadrant, (a, b): (usize, usize), odd: (bool, bool)) -> f64 {
     let (nx, ny) = part.dim();
     let mirrored = (a + 1 < nx && odd.0) != (b + 1 < ny && odd.1);

@@ -61,7 +61,8 @@ pub struct WaveFields {
 }
 
 impl WaveFields {
-    /// Sum of the downward and the upward family in a material.
+    /// Adds up displacements and stresses of the downward and the upward family in a material. `down` and `up`
+    /// are their tractions in the plane of the wave (columns: load), `down_t` and `up_t` across it.
     fn new(m: &HalfSpace, down: Matrix2, up: Matrix2, down_t: f64, up_t: f64) -> Self {
         let traction = down + up;
         let s_rr = [
@@ -215,6 +216,7 @@ impl Stack {
     }
 }
 
+/// Length of the wave vector \[1/m\]; fails at zero and beyond the range of the arithmetic.
 fn wave_number(k_x: f64, k_y: f64) -> Result<f64, Error> {
     let k = k_x.hypot(k_y);
     if (SMALLEST..=LARGEST).contains(&k) {

@@ -72,7 +72,8 @@ impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
         depth_tables::prepare::<Q, N, R>(stack, places, r_max).map(drop)
     }
 
-    /// Adds the tabulated part at (0, 0) under unit traction on the cell.
+    /// Adds the tabulated part of the response at the origin to unit traction on the cell, integrated over the
+    /// cell, to `sum`.
     fn add_smooth(&self, sum: &mut [[f64; 3]; R], cell: &Cell) {
         let Some(smooth) = &self.smooth else { return };
         let Smooth { table, zeta } = &**smooth;
@@ -173,7 +174,8 @@ impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
     }
 }
 
-/// (far - left) - (near - opposite) of the four corners.
+/// f(x, y) - f(x', y) - f(x, y') + f(x', y'): the integral over a rectangle from the values f at its corners,
+/// the last three arguments being those with low x, low y, or both low.
 fn corner_difference<const R: usize>(
     both: &[[f64; 3]; R],
     low_x: &[[f64; 3]; R],

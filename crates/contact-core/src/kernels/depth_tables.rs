@@ -57,6 +57,7 @@ pub(super) fn clear() {
 }
 
 impl Tables {
+    /// The table of a key, marked as used; none if it is not kept.
     fn get<const N: usize>(&mut self, key: &Key) -> Option<Arc<Smooth<N>>> {
         self.uses += 1;
         let (used, table, _) = self.kept.get_mut(key)?;
@@ -89,12 +90,13 @@ impl Tables {
     }
 }
 
-/// The smallest power of two above a distance: tables up to nearly equal distances are the same.
+/// The smallest power of two above a distance. Tables are made up to it, so that nearly equal distances share
+/// one.
 fn reach(r_max: f64) -> f64 {
     (r_max.log2().floor() + 1.0).exp2() * (1.0 - 1e-12)
 }
 
-/// The table of a place for distances up to `r_max` \[m\].
+/// The table of radial functions for a depth, for distances up to `r_max` \[m\], from the cache or computed.
 pub(super) fn table<Q: Quantity<N, R>, const N: usize, const R: usize>(
     stack: &Stack,
     place: DepthPoint,
@@ -152,8 +154,8 @@ fn smallest_scale(stack: &Stack, place: &DepthPoint) -> f64 {
     }
 }
 
-/// Makes and keeps the tables of places, all in the outermost layer or all below it, that share the
-/// end of the first panel.
+/// Computes and keeps the tables of some places. All lie in the outermost layer or all below it, and their
+/// first panels end at the same radius.
 fn make<Q: Quantity<N, R>, const N: usize, const R: usize>(
     stack: &Stack,
     places: &[DepthPoint],
@@ -203,6 +205,7 @@ fn make<Q: Quantity<N, R>, const N: usize, const R: usize>(
         .collect())
 }
 
+/// The key of a table: stack, quantity, depth and range, and layer.
 fn table_key<Q: Quantity<N, R>, const N: usize, const R: usize>(
     digest: [u64; 2],
     place: &DepthPoint,
@@ -212,7 +215,8 @@ fn table_key<Q: Quantity<N, R>, const N: usize, const R: usize>(
     (digest, TypeId::of::<Q>(), bits, place.layer)
 }
 
-/// Two digests of a stack: another stack with both is as likely as a fault of the memory.
+/// Two independent digests of the layers of a stack. That two different stacks share both is as unlikely as a
+/// fault of the memory.
 fn digest(stack: &Stack) -> [u64; 2] {
     let material = |m: &HalfSpace| [m.a, m.b, m.c, m.nu];
     let layers = stack.layers.iter().zip(&stack.bonds);

@@ -21,6 +21,7 @@ pub struct Displacement;
 impl Quantity<5, 3> for Displacement {
     const ORDERS: [usize; 5] = [0, 1, 0, 2, 1];
 
+    /// The five radial amplitudes of the displacement at a wave number, from the fields of the wave.
     fn amplitudes(_: f64, f: &WaveFields) -> [f64; 5] {
         [
             f.u.3,
@@ -31,6 +32,8 @@ impl Quantity<5, 3> for Displacement {
         ]
     }
 
+    /// Adds the displacement at (x, y) from the five radial functions over powers of r: rows u_x, u_y, u_z,
+    /// columns q_x, q_y, p.
     fn add(u: &mut DisplacementResponse, x: f64, y: f64, g: [f64; 5]) {
         let [normal, radial, mean, deviation, lift] = g;
         let (c2, s2) = ((x * x - y * y) * deviation, 2.0 * x * y * deviation);
@@ -46,10 +49,12 @@ impl Quantity<5, 3> for Displacement {
         }
     }
 
+    /// The radial functions of a half-space at s = r^2 and the depth z.
     fn radial(material: &HalfSpace, s: f64, z: f64) -> [f64; 5] {
         half_space_displacement::radial_functions(s, z, material)
     }
 
+    /// The closed form of one corner of a loaded cell.
     fn corner(
         material: &HalfSpace,
         (x, y, z): (f64, f64, f64),
@@ -58,19 +63,23 @@ impl Quantity<5, 3> for Displacement {
         half_space_displacement::corner(x, y, z, material)
     }
 
+    /// Whether the entry is odd in x and in y.
     fn is_odd(row: usize, column: usize) -> (bool, bool) {
         ((row == 0) != (column == 0), (row == 1) != (column == 1))
     }
 
+    /// The entry that it becomes when x and y change places.
     fn transposed(row: usize, column: usize) -> (usize, usize) {
         ([1, 0, 2][row], [1, 0, 2][column])
     }
 
+    /// Whether the component has exactly one index z: u_z.
     fn has_one_z(row: usize) -> bool {
         row == 2
     }
 
-    /// Displacement decays like 1/r: the reference is the displacement of the softest material.
+    /// Reference for errors of the table, which compares r times the displacement: the largest 1/G \[1/Pa\],
+    /// since the displacement decays like 1/(G r).
     fn error_scale(stack: &Stack, _: f64) -> f64 {
         stack.largest_compliance()
     }

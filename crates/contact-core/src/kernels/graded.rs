@@ -40,7 +40,7 @@ pub enum Profile {
 }
 
 impl Profile {
-    /// The value at s = z/h.
+    /// The value at the fraction s = z/h of the thickness, from 0 at the top to 1 at the bottom.
     pub fn value_at(&self, s: f64) -> f64 {
         match self {
             Self::Constant(v) => *v,
@@ -61,6 +61,8 @@ impl Profile {
         }
     }
 
+    /// Fails with `key` at a profile without meaning: an exponent that is not positive, ends of different sign,
+    /// a table that does not rise from 0 to 1.
     fn check(&self, key: &str) -> Result<(), Error> {
         match self {
             Self::Power { exponent, .. } if !(*exponent > 0.0 && exponent.is_finite()) => Err(

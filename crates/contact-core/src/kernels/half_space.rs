@@ -25,7 +25,8 @@ pub(crate) type Six = [f64; 6];
 /// x^2 - y^2 in (yy - xx)/2, and the amplitude of x in -xz.
 pub(crate) type Radial = [f64; 4];
 
-/// Adds `weight` times the kernel at (x, y).
+/// Adds `weight` times the response at (x, y) to unit forces, from its radial functions g: xx, yy, zz, xy, xz,
+/// yz.
 pub(crate) fn add_kernel(sum: &mut Six, x: f64, y: f64, weight: f64, g: Radial) {
     let [zz, mean, deviation, odd] = g.map(|g| weight * g);
     let difference = (x * x - y * y) * deviation;
@@ -37,7 +38,8 @@ pub(crate) fn add_kernel(sum: &mut Six, x: f64, y: f64, weight: f64, g: Radial) 
     sum[5] -= y * odd;
 }
 
-/// The radial functions of a half-space.
+/// The radial functions of the surface displacement of a half-space under unit forces, at s = r^2: the normal
+/// one, mean and deviation of the tangential ones, and the coupling.
 pub(crate) fn radial_functions(material: &HalfSpace, s: f64) -> Radial {
     let HalfSpace { a, b, c, .. } = *material;
     let inverse_r = 1.0 / (2.0 * PI * s.sqrt());

@@ -21,7 +21,8 @@ use super::layered_frf::HalfSpace;
 /// Displacement per unit traction \[m/Pa\]: rows u_x, u_y, u_z, columns q_x, q_y, p.
 pub(crate) type DisplacementResponse = [[f64; 3]; 3];
 
-/// The displacement of one corner at (x, y, z) from it; z >= 0.
+/// The displacement \[m/Pa times the unit of length\] at (x, y, z >= 0) from the corner of a quadrant under
+/// unit traction: rows u_x, u_y, u_z, columns q_x, q_y, p. Cells are differences of four corners.
 pub(crate) fn corner(x: f64, y: f64, z: f64, material: &HalfSpace) -> DisplacementResponse {
     let nu = material.nu;
     let rho = x.hypot(y).hypot(z);

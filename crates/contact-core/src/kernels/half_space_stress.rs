@@ -23,7 +23,8 @@ use std::f64::consts::PI;
 /// Stress per unit traction: rows xx, yy, zz, xy, xz, yz, columns q_x, q_y, p.
 pub type StressResponse = [[f64; 3]; 6];
 
-/// The stress of one corner at (x, y, z) from it, all three in any one unit of length; z >= 0.
+/// The stress at (x, y, z >= 0) from the corner of a quadrant under unit traction: rows xx, yy, zz, xy, xz, yz,
+/// columns q_x, q_y, p. Lengths have any one unit. Cells are differences of four corners.
 ///
 /// On the line of an edge the stress that a step of the traction causes is infinite like the
 /// logarithm of the distance. There the distance is taken for `edge`, along x and along y in the
@@ -140,8 +141,9 @@ pub(super) fn mean_angle(n: f64, d: f64) -> f64 {
     if d == 0.0 { 0.0 } else { (n / d).atan() }
 }
 
-/// ln(rho + y) up to a function of `rest` = rho^2 - y^2. Where `rest` vanishes, only differences
-/// between y of one sign are finite; for others it is replaced by `edge`^2, small against y^2.
+/// ln(rho + y), up to a function of rho^2 - y^2 = `rho2_minus_y2` that cancels between corners. Where
+/// rho^2 = y^2, only differences between corners with y of one sign are finite; for the others it is replaced
+/// by `edge`^2, small against y^2.
 pub(super) fn log_sum(y: f64, rho2_minus_y2: f64, edge: f64) -> f64 {
     if rho2_minus_y2 > 0.0 {
         (y / rho2_minus_y2.sqrt()).asinh()

@@ -94,6 +94,7 @@ struct Buffers {
 }
 
 impl Inverse {
+    /// Allocates the buffers of one thread.
     fn buffers(&self) -> Buffers {
         Buffers {
             spectrum: self.0.make_input_vec(),

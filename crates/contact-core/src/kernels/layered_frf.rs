@@ -60,6 +60,7 @@ pub struct HalfSpace {
 }
 
 impl HalfSpace {
+    /// The constants of a material in the formulas: (1 - nu)/G, (1/2 - nu)/G and 1/G \[1/Pa\].
     pub(crate) fn new(material: Elastic) -> Self {
         let (G, nu) = (material.G(), material.nu);
         Self {
@@ -70,12 +71,12 @@ impl HalfSpace {
         }
     }
 
-    /// Y_d.
+    /// Y_d: displacements over tractions of fields that decay downwards, times k.
     pub(crate) fn down(&self) -> Matrix2 {
         Matrix2(self.a, self.b, self.b, self.a)
     }
 
-    /// Y_u.
+    /// Y_u: displacements over tractions of fields that decay upwards, times k.
     pub(crate) fn up(&self) -> Matrix2 {
         Matrix2(-self.a, self.b, self.b, -self.a)
     }
@@ -108,7 +109,8 @@ pub(crate) fn propagate_up(x: f64) -> Matrix2 {
     Matrix2(e - xe, xe, -xe, e + xe)
 }
 
-/// 1 - P_u P_d, without cancellation as x -> 0.
+/// 1 - P_u P_d, the change of the tractions over a way down and up the layer, without cancellation as x = k h
+/// -> 0.
 fn one_minus_round_trip(x: f64) -> Matrix2 {
     let e = (-2.0 * x).exp();
     if e == 0.0 {
@@ -168,6 +170,7 @@ pub(crate) struct LayerWaves {
 }
 
 impl ResponseBelow {
+    /// The response of a half-space, of which nothing is left when the half-space is subtracted.
     fn half_space(material: HalfSpace) -> Self {
         Self {
             y: material.down(),
@@ -194,7 +197,7 @@ impl ResponseBelow {
         (in_plane, out_of_plane)
     }
 
-    /// The response through a bond, at the wave number k.
+    /// Adds the compliance of a bond on top to the response, at the wave number k \[1/m\].
     fn add_bond(self, bond: Bond, k: f64) -> Self {
         let (shear, normal) = (k * bond.shear, k * bond.normal);
         let compliance = Matrix2(shear, 0.0, 0.0, normal);

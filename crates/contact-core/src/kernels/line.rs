@@ -81,6 +81,8 @@ struct Node {
     d: RadialResponse,
 }
 
+/// Nodes of the quadrature over the wave number for the part of the response that the layers add to a
+/// half-space; none without a layer.
 fn remainder_nodes(stack: &Stack, length: f64) -> Vec<Node> {
     let Some((_, h)) = stack.layers.first() else {
         return Vec::new();

@@ -14,6 +14,7 @@ pub(crate) struct Matrix2(
 impl Matrix2 {
     pub(crate) const ONE: Self = Self(1.0, 0.0, 0.0, 1.0);
 
+    /// The inverse, by the determinant.
     pub(crate) fn inverse(self) -> Self {
         let det = self.0 * self.3 - self.1 * self.2;
         Self(self.3 / det, -self.1 / det, -self.2 / det, self.0 / det)

@@ -106,6 +106,8 @@ pub fn pair_coefficients(
     Ok(coefficients2.pair(&*coefficients_of(body1)?))
 }
 
+/// The coefficients of one body for a `set`, from the cache or computed by the method of the settings. The
+/// other arguments are described at [`influence_coefficients`].
 fn coefficients_of_body(
     body: &Body,
     grid: &Grid,

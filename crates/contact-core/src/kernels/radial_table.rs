@@ -98,6 +98,8 @@ const KEPT: usize = 16;
 /// end: kernels at many depths share them.
 static OCTAVES: Mutex<BTreeMap<usize, Arc<Octave>>> = Mutex::new(BTreeMap::new());
 
+/// Bessel functions J_0 to J_3 at the nodes of a rule for the radii of one octave, computed once for each
+/// length of the rule.
 fn octave(rule: &Rule) -> Arc<Octave> {
     let lock_cache = || OCTAVES.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(octave) = lock_cache().get(&rule.0.len()) {
@@ -125,7 +127,7 @@ fn octave(rule: &Rule) -> Arc<Octave> {
 }
 
 impl<const N: usize> Hankel<'_, N> {
-    /// Calls `f` with a set of these functions alone.
+    /// Calls `f` with these functions as a set of one.
     fn with_set<T>(&self, f: impl FnOnce(&HankelSet<'_, N>) -> Vec<T>) -> T {
         let amplitudes = |k: f64, at: &mut [[f64; N]]| at.fill((self.amplitude)(k));
         let set = HankelSet {
@@ -170,6 +172,7 @@ pub(super) struct HankelSet<'a, const N: usize> {
 }
 
 impl<const N: usize> HankelSet<'_, N> {
+    /// The smallest decay length of the set \[m\].
     fn least_zeta(&self) -> f64 {
         self.zetas.iter().copied().fold(f64::INFINITY, f64::min)
     }
@@ -179,8 +182,8 @@ impl<const N: usize> HankelSet<'_, N> {
         self.k_low * r / 8.0
     }
 
-    /// The amplitudes of each set times weight and window at the nodes of a rule for radii from
-    /// `r_a`.
+    /// For each set of functions, the amplitudes at the nodes of a rule for radii from `r_a` \[m\] on, times
+    /// quadrature weight and `window`.
     fn weighted_amplitudes(
         &self,
         rule: &Rule,
@@ -233,6 +236,7 @@ impl<const N: usize> HankelSet<'_, N> {
         self.divide_by_powers(g, r)
     }
 
+    /// Divides each function g by r to its power m.
     fn divide_by_powers(&self, mut g: [f64; N], r: f64) -> [f64; N] {
         for (g, m) in g.iter_mut().zip(self.orders) {
             *g /= r.powi(m as i32);
@@ -250,7 +254,7 @@ impl<const N: usize> HankelSet<'_, N> {
         self.sums(&rule, &weighted, 1.0, r)
     }
 
-    /// Tabulates the functions of each set for r <= `r_max`.
+    /// Tabulates each set of functions for radii up to `r_max` \[m\].
     pub(super) fn tabulate(&self, r_max: f64) -> Vec<RadialTable<N>> {
         let r_first = first_radius(self.zetas[0], r_max);
         let mut coefficients = self.tabulate_first_panel(r_first);
@@ -344,7 +348,7 @@ impl<const N: usize> RadialTable<N> {
         std::mem::size_of_val(self.coefficients.as_slice())
     }
 
-    /// g_n(r)/r^m at s = r^2, within the range tabulated.
+    /// Evaluates the table at s = r^2 <= r_max^2: g_n(r)/r^m of each function.
     pub fn evaluate(&self, s: f64) -> [f64; N] {
         let ratio = s / self.s_first;
         let (panel, x) = if ratio < 1.0 {
@@ -369,7 +373,7 @@ fn cosines() -> [f64; ORDER] {
     std::array::from_fn(|i| (PI * (i as f64 + 0.5) / ORDER as f64).cos())
 }
 
-/// Chebyshev coefficients of the values at the nodes.
+/// Computes Chebyshev coefficients from values at the Chebyshev nodes.
 fn transform<const N: usize>(values: &[[f64; N]; ORDER]) -> [[f64; N]; ORDER] {
     std::array::from_fn(|j| {
         let mut c = [0.0; N];
@@ -384,7 +388,7 @@ fn transform<const N: usize>(values: &[[f64; N]; ORDER]) -> [[f64; N]; ORDER] {
     })
 }
 
-/// The sum of Chebyshev polynomials at x.
+/// Sums Chebyshev polynomials with these coefficients at x in \[-1, 1\], by Clenshaw's recurrence.
 fn clenshaw<const N: usize>(coefficients: &[[f64; N]], x: f64) -> [f64; N] {
     let (mut b, mut previous) = ([0.0; N], [0.0; N]);
     for c in coefficients[1..].iter().rev() {

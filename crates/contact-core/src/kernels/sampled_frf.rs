@@ -29,6 +29,7 @@ pub(crate) struct SampledFrf<'a> {
 }
 
 impl<'a> SampledFrf<'a> {
+    /// Prepares sampling on a domain `lambda` times as long as the grid, with alias sums up to `aliases`.
     pub(crate) fn new(stack: &'a Stack, grid: &Grid, lambda: usize, aliases: usize) -> Self {
         let period = (lambda * grid.nx, lambda * grid.ny);
         let step = |n: usize, d: f64| 2.0 * PI / (n as f64 * d);
@@ -93,7 +94,8 @@ impl<'a> SampledFrf<'a> {
     }
 }
 
-/// f(k_x, k_y): xx, yy, zz, xy, and xz, yz over i.
+/// Rotates a response from the axes of the wave vector (k_x, k_y) to x and y: xx, yy, zz, xy, and the odd xz,
+/// yz over i.
 fn rotate_response(response: &RadialResponse, k_x: f64, k_y: f64) -> Six {
     let k = k_x.hypot(k_y);
     let (c, s) = (k_x / k, k_y / k);

@@ -42,7 +42,8 @@ pub(crate) type StressKernel = DepthKernel<Stress, 10, 6>;
 impl Quantity<10, 6> for Stress {
     const ORDERS: [usize; 10] = [0, 0, 2, 1, 1, 1, 1, 3, 0, 2];
 
-    /// Includes the factor k of k dk.
+    /// The ten radial amplitudes of the stress at a wave number k, from the fields of the wave. They include
+    /// the factor k of k dk.
     fn amplitudes(k: f64, f: &WaveFields) -> [f64; 10] {
         let t = f.traction;
         let mean = |n: usize| f64::midpoint(f.s_rr[n], f.s_tt[n]);
@@ -62,6 +63,8 @@ impl Quantity<10, 6> for Stress {
         .map(|a| k * a)
     }
 
+    /// Adds the stress at (x, y) from the ten radial functions over powers of r: rows xx, yy, zz, xy, xz, yz,
+    /// columns q_x, q_y, p.
     fn add(s: &mut StressResponse, x: f64, y: f64, g: [f64; 10]) {
         let [zz, mean, deviation, rz, zz_q, mean_q, e, f, p, q] = g;
         let (c2, s2) = (x * x - y * y, 2.0 * x * y);
@@ -89,10 +92,12 @@ impl Quantity<10, 6> for Stress {
         }
     }
 
+    /// The radial functions of a half-space at s = r^2 and the depth z.
     fn radial(material: &HalfSpace, s: f64, z: f64) -> [f64; 10] {
         half_space_stress::radial_functions(s, z, material.nu)
     }
 
+    /// The closed form of one corner of a loaded cell.
     fn corner(
         material: &HalfSpace,
         (x, y, z): (f64, f64, f64),
@@ -101,6 +106,7 @@ impl Quantity<10, 6> for Stress {
         half_space_stress::corner(x, y, z, edge, material.nu)
     }
 
+    /// Whether the entry is odd in x and in y.
     fn is_odd(row: usize, column: usize) -> (bool, bool) {
         let (x, y) = match row {
             3 => (true, true),
@@ -111,16 +117,18 @@ impl Quantity<10, 6> for Stress {
         (x != (column == 0), y != (column == 1))
     }
 
+    /// The entry that it becomes when x and y change places.
     fn transposed(row: usize, column: usize) -> (usize, usize) {
         ([1, 0, 2, 3, 5, 4][row], [1, 0, 2][column])
     }
 
+    /// Whether the component has exactly one index z: xz and yz.
     fn has_one_z(row: usize) -> bool {
         row >= 4
     }
 
-    /// Stress at the depth zeta is of the order of 1/zeta^2 below a unit force and decays like 1/r^2:
-    /// r times it is of the order of 1/zeta at most.
+    /// Reference for errors of the table, which compares r times the stress under unit forces: 1/zeta \[1/m\].
+    /// At the depth zeta the stress is about 1/zeta^2 (up to 1/(2 pi)) at r ~ zeta, and decays like 1/r^2.
     fn error_scale(_: &Stack, zeta: f64) -> f64 {
         1.0 / zeta
     }

@@ -89,6 +89,7 @@ pub(crate) fn surface_coefficients(
 }
 
 impl SurfaceKernel<'_> {
+    /// The loaded cell at the offset of i and j cells from the point.
     fn cell(&self, i: usize, j: usize) -> Cell {
         let Grid { dx, dy, .. } = *self.grid;
         Cell {
@@ -196,6 +197,7 @@ impl SurfaceKernel<'_> {
     }
 }
 
+/// Adds radial functions to others.
 fn add_functions(g: &mut Radial, addend: Radial) {
     for (g, o) in g.iter_mut().zip(addend) {
         *g += o;

@@ -29,7 +29,8 @@ use crate::plan::{Mirror, Parity};
 use crate::scene::Grid;
 use crate::solvers::Interface;
 
-/// The state of the fine grid at the present increment of the coarse one.
+/// Carries the state of the fine grid from the last increment that was solved on both grids to the present
+/// increment of the coarse grid, by adding the interpolated change on the coarse grid.
 pub(super) fn carried(problem: &Problem, state: &State, along: &Along, ratio: usize) -> State {
     let mirror = problem.plan.mirror;
     let kept = |(nx, ny): (usize, usize)| (nx, mirror.rows(ny));
@@ -46,8 +47,9 @@ pub(super) fn carried(problem: &Problem, state: &State, along: &Along, ratio: us
     carried
 }
 
-/// The state in a window of the fine grid of bodies that the coarse grid alone has pressed together,
-/// except for the last slip: pressure p^2 interpolated, shear between cells in contact.
+/// The state on the fine grid, in a window, of bodies that only the coarse grid has pressed together so far:
+/// its state `now` interpolated. The squares of the pressure are interpolated, since they grow linearly from
+/// the rim. Slip before the last increment is not carried.
 pub(super) fn pressed(
     problem: &Problem,
     window: (usize, usize),
@@ -85,7 +87,7 @@ pub(super) fn pressed(
         pressed.q_before[c] = change.interpolate_change(&now.q_before[c], &none[c], half);
     }
     let mark = |of: &[bool]| -> Vec<bool> {
-        let part = change.masked(|n| is(of[n]), Parity::Even);
+        let part = change.interpolate_in_contact(|n| indicator(of[n]), Parity::Even);
         part.iter().map(|part| *part > 0.5).collect()
     };
     pressed.interface.slips = mark(&now.interface.slips);
@@ -108,8 +110,9 @@ struct Change<'a> {
 }
 
 impl<'a> Change<'a> {
-    /// Interpolation between two states in the same window, from the kept cells of the coarse window to cells of
-    /// the fine one.
+    /// Prepares the interpolation of the change from the state `then` to the state `now` of the coarse grid.
+    /// `coarse` and `fine` are the kept cells along x and y of the two windows, `ratio` the cells of the fine
+    /// grid along a coarse one.
     fn new(
         now: &'a State,
         then: &'a State,
@@ -117,12 +120,17 @@ impl<'a> Change<'a> {
         (ratio, mirror): (usize, Mirror),
     ) -> Self {
         let on_fine = |weights: fn(f64) -> [f64; 4]| Interpolation {
-            columns: axis((fine.0, coarse.0), ratio, false, weights),
-            rows: axis((fine.1, coarse.1), ratio, mirror == Mirror::Y, weights),
+            columns: axis_weights((fine.0, coarse.0), ratio, false, weights),
+            rows: axis_weights((fine.1, coarse.1), ratio, mirror == Mirror::Y, weights),
             width: coarse.1,
         };
         let (cubic, linear) = (on_fine(cubic), on_fine(linear));
-        let contact: Vec<f64> = now.interface.p.iter().map(|p| is(*p > 0.0)).collect();
+        let contact: Vec<f64> = now
+            .interface
+            .p
+            .iter()
+            .map(|p| indicator(*p > 0.0))
+            .collect();
         Self {
             now,
             then,
@@ -133,23 +141,26 @@ impl<'a> Change<'a> {
         }
     }
 
-    /// A field interpolated between cells in contact.
-    fn masked(&self, of: impl Fn(usize) -> f64, half: Parity) -> Vec<f64> {
+    /// A field of the coarse grid (its value in cell n is `of(n)`), interpolated between cells in contact
+    /// alone. `parity` is its symmetry under the mirror.
+    fn interpolate_in_contact(&self, of: impl Fn(usize) -> f64, parity: Parity) -> Vec<f64> {
         let field: Vec<f64> = (self.contact.iter().enumerate())
             .map(|(n, contact)| if *contact > 0.0 { of(n) } else { 0.0 })
             .collect();
-        let mut on_fine = self.linear.interpolate(&field, half);
+        let mut on_fine = self.linear.interpolate(&field, parity);
         for (value, within) in on_fine.iter_mut().zip(&self.within) {
             *value = if *within > 0.0 { *value / within } else { 0.0 };
         }
         on_fine
     }
 
-    /// The change of a field from one to another, interpolated between cells in contact.
-    fn interpolate_change(&self, to: &[f64], from: &[f64], half: Parity) -> Vec<f64> {
-        self.masked(|n| to[n] - from[n], half)
+    /// The difference `to` - `from` of two fields of the coarse grid, interpolated between cells in contact;
+    /// `parity` is their symmetry under the mirror.
+    fn interpolate_change(&self, to: &[f64], from: &[f64], parity: Parity) -> Vec<f64> {
+        self.interpolate_in_contact(|n| to[n] - from[n], parity)
     }
 
+    /// Adds the change of displacements, of total slip and of dissipated energy.
     fn displacements_and_sums(&self, carried: &mut State) {
         let (now, then) = (self.now, self.then);
         let (i, j) = (&now.interface, &then.interface);
@@ -171,6 +182,8 @@ impl<'a> Change<'a> {
         add(&mut carried.dissipated, &dissipated);
     }
 
+    /// Adds the change of pressure in the cells in contact, and scales the pressure so that its sum changes as
+    /// on the coarse grid. Cells keep their pressure where it would become negative.
     fn pressure(&self, carried: &mut State) {
         let (i, j) = (&self.now.interface, &self.then.interface);
         let change = self.interpolate_change(&i.p, &j.p, Parity::Even);
@@ -192,13 +205,14 @@ impl<'a> Change<'a> {
             .collect();
     }
 
-    /// Applies the friction coefficient of a fine cell.
+    /// Adds the change of shear. Slipping cells get the shear mu p, `mu(n)` being the coefficient of a fine
+    /// cell; sticking cells share what the sum of the shear lacks.
     fn shear(&self, carried: &mut State, mu: impl Fn(usize) -> f64, ratio: usize) {
         let (now, then) = (self.now, self.then);
         let (i, j) = (&now.interface, &then.interface);
-        let slipping = self.masked(|n| is(i.slips[n]), Parity::Even);
-        let at_limit = self.masked(|n| is(now.at_limit[n]), Parity::Even);
-        let direction = [0, 1].map(|c| self.masked(|n| i.q[c][n], HALVES[c]));
+        let slipping = self.interpolate_in_contact(|n| indicator(i.slips[n]), Parity::Even);
+        let at_limit = self.interpolate_in_contact(|n| indicator(now.at_limit[n]), Parity::Even);
+        let direction = [0, 1].map(|c| self.interpolate_in_contact(|n| i.q[c][n], HALVES[c]));
         let change = [0, 1].map(|c| self.interpolate_change(&i.q[c], &j.q[c], HALVES[c]));
         let last = [0, 1].map(|c| self.interpolate_change(&i.q[c], &now.q_before[c], HALVES[c]));
         let Interface { p, q, slips, .. } = &mut carried.interface;
@@ -235,11 +249,12 @@ impl<'a> Change<'a> {
     }
 }
 
+/// Sum over the cells.
 fn total(field: &[f64]) -> f64 {
     field.iter().sum()
 }
 
-/// Friction coefficient of the kept cells of a window.
+/// Returns a function for the friction coefficient of the kept cells of a window, by the map of the scene.
 fn mu(problem: &Problem, (nx, ny): (usize, usize)) -> impl Fn(usize) -> f64 {
     let friction = &problem.scene.friction;
     let grid = Grid {
@@ -258,14 +273,17 @@ fn mu(problem: &Problem, (nx, ny): (usize, usize)) -> impl Fn(usize) -> f64 {
     move |n| map.as_ref().map_or(mu, |map| mu * map[n])
 }
 
-fn is(yes: bool) -> f64 {
+/// 1 for true, 0 for false.
+fn indicator(yes: bool) -> f64 {
     f64::from(u8::from(yes))
 }
 
+/// a - b, cell by cell.
 fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
+/// Adds a change, cell by cell.
 fn add(to: &mut [f64], change: &[f64]) {
     to.iter_mut()
         .zip(change)
@@ -279,6 +297,7 @@ fn cubic(t: f64) -> [f64; 4] {
     [far(1.0 + t), near(t), near(1.0 - t), far(2.0 - t)]
 }
 
+/// Weights of the four cells around a point, of which only the middle two count.
 fn linear(t: f64) -> [f64; 4] {
     [0.0, 1.0 - t, t, 0.0]
 }
@@ -292,9 +311,10 @@ struct Part {
     image: bool,
 }
 
-/// Weights along an axis: of `to` fine cells from `from` cells `ratio` times as long around the same
-/// middle, or of the upper halves of both (`mirrored`); beyond the last coarse cell its value.
-fn axis(
+/// Cells and weights for the interpolation along one axis: to `to` fine cells, from `from` cells `ratio` times
+/// as long around the same middle. With `mirrored`, both are the upper halves of a grid. Beyond the last coarse
+/// cell its value counts.
+fn axis_weights(
     (to, from): (usize, usize),
     ratio: usize,
     mirrored: bool,
@@ -327,6 +347,8 @@ struct Interpolation {
 }
 
 impl Interpolation {
+    /// Interpolates a field of the coarse grid to the cells of the fine one, along y and then along x; `half`
+    /// is its parity under the mirror.
     fn interpolate(&self, field: &[f64], half: Parity) -> Vec<f64> {
         let along_rows = |column: &[f64]| -> Vec<f64> {
             let value = |part: &Part| {

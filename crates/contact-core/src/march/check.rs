@@ -55,7 +55,8 @@ pub(super) fn admissible(
     clear.ok_or(Failure::Beyond)
 }
 
-/// The residuals, and the largest pressure and shear \[Pa\].
+/// The residuals of gap, overlap, slip and loads of a solution, each over its scale, and three tractions
+/// \[Pa\]: the largest pressure, the largest shear, and the root mean square of the shear.
 pub(super) fn residuals(
     setup: &Setup<'_>,
     no_slip: &NoSlipTerms,
@@ -147,7 +148,7 @@ fn missing_loads(setup: &Setup<'_>, now: &Interface) -> f64 {
     };
     let carried = transmitted(setup, &all_given, now).forces();
     let (prescribed, motions) = (point.loads.forces(), point.loads.given.motions());
-    let [pressed, friction] = bearable(setup, now);
+    let [pressed, friction] = load_limits(setup, now);
     (0..6)
         .filter(|&k| motions[k].is_none() && carried[k] != prescribed[k])
         .fold(0.0, |worst, k| {
@@ -157,9 +158,9 @@ fn missing_loads(setup: &Setup<'_>, now: &Interface) -> f64 {
         })
 }
 
-/// The normal force, and the limit of friction under it, sum of mu p dA \[N\]; the normal force
-/// again where mu is infinite.
-fn bearable(setup: &Setup<'_>, now: &Interface) -> [f64; 2] {
+/// The normal force, and the limit of the shear force under it, sum of mu p dA \[N\]. Where mu is infinite both
+/// are the normal force.
+fn load_limits(setup: &Setup<'_>, now: &Interface) -> [f64; 2] {
     let [p, bounds, unbounded] = sums([&now.p[..], setup.mu], |_, [p, mu]| {
         let bound = friction_bound(mu, p);
         if bound.is_finite() {
@@ -173,10 +174,10 @@ fn bearable(setup: &Setup<'_>, now: &Interface) -> [f64; 2] {
     [p * cell_area, friction * cell_area]
 }
 
-/// The error for a given load whose free motion meets no resistance, for lack of contact or
-/// friction.
+/// The error for a given load whose motion is free and meets no resistance, for lack of contact or of friction;
+/// none if there is no such load.
 fn unresisted(setup: &Setup<'_>, now: &Interface) -> Option<Error> {
-    let [pressed, friction] = bearable(setup, now);
+    let [pressed, friction] = load_limits(setup, now);
     let (prescribed, motions) = (
         setup.point.loads.forces(),
         setup.point.loads.given.motions(),

@@ -26,7 +26,8 @@ pub(super) fn expected_radius(scene: &Scene) -> f64 {
     principal(scene, a)
 }
 
-/// The longer semi-axis of a contact of mean radius a \[m\]; in plane strain the half-width.
+/// The longer semi-axis of the elliptical contact of mean radius a \[m\]; in plane strain the half-width a
+/// itself.
 fn principal(scene: &Scene, a: f64) -> f64 {
     if scene.grid.plane_strain {
         return a;

@@ -55,6 +55,7 @@ impl March {
         self.shear_of(&self.caught_up())
     }
 
+    /// The shear tractions q_x, q_y of a state on the whole grid \[Pa\].
     fn shear_of(&self, state: &State) -> [Array2<f64>; 2] {
         let unfold = |f: &[f64], half| on_grid(&self.problem, state, f, half);
         let [q_x, q_y] = &state.interface.q;

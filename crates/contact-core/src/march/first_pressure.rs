@@ -8,8 +8,8 @@ use crate::scene::LoadPoint;
 /// Area of a first guess over the area that carries the load at the hardness.
 const ROOM: f64 = 1.3;
 
-/// Pressure of a paraboloid of the approach expected at a point, over the gap `h_init` of cells of an
-/// area \[m^2\], up to a factor; on cells enough for the load at the hardness.
+/// Pressure of a paraboloid, up to a factor: the approach expected at a point less the gap `h_init`. Cells are
+/// as many as the load needs at the hardness, `cell_area` \[m^2\] each.
 pub(super) fn pressure_of_paraboloid(
     problem: &Problem,
     point: &LoadPoint,

@@ -55,7 +55,7 @@ pub(super) struct Solved<'a> {
     pub(super) dissipated: &'a [f64],
 }
 
-/// Sets `mu` by a law of the user's own: at the start of an increment, or at the end of one that is
+/// Sets `mu` by a user's law: at the start of an increment (`solved` is none), or at the end of one that is
 /// solved.
 pub(super) fn by_law(
     setup: &Setup<'_>,
@@ -98,9 +98,9 @@ pub(super) fn by_law(
     law.coefficients(&cells, setup.problem.scene.friction.mu, mu)
 }
 
-/// Extrapolated growth of the history of each cell: the growth in the last increment times the ratio of
-/// the steps, zero where the path turns.
-pub(super) fn expected(setup: &Setup<'_>) -> impl Fn(usize) -> f64 {
+/// Returns the expected growth of the history of each cell: the growth in the last increment times the ratio of
+/// the steps; zero where the path turns.
+pub(super) fn expected_growth(setup: &Setup<'_>) -> impl Fn(usize) -> f64 {
     let (ratio, mirror) = (setup.goes_on.unwrap_or(0.0), setup.problem.plan.mirror);
     move |n| {
         let from = setup.roll.origin(setup.geometry, mirror, n);

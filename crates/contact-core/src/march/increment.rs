@@ -50,7 +50,7 @@ pub(super) fn increment(
         ws.mu.clone_from(&ws.mu_before);
     } else {
         let mu = [&mut ws.mu[..], &mut ws.mu_before[..]];
-        friction::update(&first_setup, friction::expected(&first_setup), mu);
+        friction::update(&first_setup, friction::expected_growth(&first_setup), mu);
     }
     let most_work = domain.most_work();
     let response = Response {
@@ -94,8 +94,8 @@ pub(super) fn increment(
     Ok(increment)
 }
 
-/// The solution, and in `ws` its friction coefficients; where these depend on the history of the
-/// cells, the increment is solved again until both agree.
+/// Solves an increment with friction that depends on the history of the cells: again and again, until the
+/// coefficients in `ws` agree with the solution. Other friction is solved once.
 fn with_its_friction<'a>(
     given: &Setup<'_>,
     response: Response<'a>,
@@ -169,7 +169,7 @@ fn rolls_off(
     .into()
 }
 
-/// The solution from a guess, the first one if none is given; without tractions if nothing presses the
+/// Solves an increment from a guess, by default from the first guess. Without tractions if nothing presses the
 /// bodies together.
 fn solve(
     setup: &Setup<'_>,

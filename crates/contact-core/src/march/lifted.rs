@@ -12,7 +12,7 @@ use crate::cells::Lattice;
 use crate::error::Error;
 use crate::solvers::Interface;
 
-/// The error if more than cells at the rim are lifted.
+/// The error for an increment in which shear lifts more cells than a rim; none if it does not.
 pub(super) fn lifted(setup: &Setup<'_>, now: &Interface) -> Option<Error> {
     if setup.problem.scene.friction.mu.is_finite() {
         return None;

@@ -174,7 +174,8 @@ impl March {
         self.problem.stop = flag;
     }
 
-    /// Takes another path of the same loads, and a state on it; without one it begins anew.
+    /// Replaces the path by another of the same kinds of loads. The march stands at `state` on it; without one
+    /// at its start.
     pub(crate) fn go_along(&mut self, path: &LoadPath, state: Option<State>) {
         self.problem.scene.path = path.clone();
         self.problem.largest = Largest::from_path(path);
@@ -190,7 +191,7 @@ impl March {
         self.state = state.unwrap_or_else(unloaded);
     }
 
-    /// Grows contacts in so many steps to the largest of the path
+    /// Sets the number of substeps in which a contact grows to the largest of the path
     /// ([`Methods`](crate::plan::Methods)).
     pub(crate) fn grow_in(&mut self, steps: usize) {
         self.problem.plan.methods.growth_steps = steps;
@@ -282,8 +283,9 @@ impl March {
         ended
     }
 
-    /// Computes an increment in a window that is wide enough for it. The window changes here,
-    /// between increments, and nowhere else.
+    /// Computes an increment in a window that is wide enough for it, which is widened and the increment
+    /// repeated until it is. `found` keeps the state in the former window. The window changes here, between
+    /// increments, and nowhere else.
     fn in_a_window(
         &mut self,
         point: &LoadPoint,
@@ -317,7 +319,7 @@ impl March {
     }
 }
 
-/// The state before the first increment.
+/// The state before the first increment, with the state of the path grid (`coarse`) if there is one.
 fn unloaded(scene: &Scene, domain: &Domain, coarse: Option<&March>) -> State {
     let touching = domain.window.geometry.touching(scene, [0.0; 3]);
     State {

@@ -20,7 +20,7 @@ pub(crate) struct Offsets {
 }
 
 impl Offsets {
-    /// Folds fields on the grid of the scene.
+    /// Folds residual displacements \[m\] on the grid of the scene to the kept cells.
     pub(super) fn from_residual(residual: &Residual, arms: &Arms, mirror: Mirror) -> Self {
         let [x, y] = [&residual.u[0], &residual.u[1]].map(|u| mirror.fold(u));
         Self {
@@ -30,8 +30,8 @@ impl Offsets {
     }
 }
 
-/// Puts `to` in the place of the offsets `from` that a state was solved with. `bare` is the gap without
-/// any \[m\].
+/// Replaces the offsets `from` that a state was solved with by `to`, in its displacements and in the gap.
+/// `bare` is the gap without any offsets \[m\].
 pub(super) fn replace(
     state: &mut State,
     geometry: &mut Geometry,

@@ -79,7 +79,8 @@ impl March {
         })
     }
 
-    /// The increment to a point: on the path grid, and on the grid of the scene where it is wanted.
+    /// Computes the increment to a point on the path grid, and also on the grid of the scene where its fields
+    /// are kept or it ends a branch.
     pub(super) fn on_both_grids(&mut self, point: &LoadPoint) -> Result<Increment, Error> {
         let remembers = self.remembers(point);
         let solves = self.is_wanted(point) || (self.presses_anew(point) && !remembers);
@@ -128,8 +129,9 @@ impl March {
         }
     }
 
-    /// The increment of an indentation from what the stick zone of the path grid remembers; if that zone
-    /// is too small or it does not converge, from the indentation on the grid itself.
+    /// Computes the end of an indentation on the grid of the scene from what the stick zone of the path grid
+    /// remembers; `row` is the increment on the path grid. If the stick zone is too small, or that does not
+    /// converge, the whole indentation is solved on the grid itself.
     fn remember_path_grid(
         &mut self,
         point: &LoadPoint,
@@ -157,9 +159,8 @@ impl March {
         })
     }
 
-    /// The next increment from all before it on the grid of the scene, as if there were no path grid;
-    /// their work and pieces are its own. The state that it leaves has no path grid, after a failure
-    /// it is as before.
+    /// Solves all increments up to the next one on the grid of the scene, as if there were no path grid. The
+    /// state after it has no path grid; after a failure it is as before.
     fn press_on_grid(&mut self) -> Result<Increment, Error> {
         let share = std::mem::replace(&mut self.problem.share, 1.0);
         let anew = super::unloaded(&self.problem.scene, &self.domain, None);
@@ -189,8 +190,8 @@ impl March {
         point.ends_branch || keeps.keeps(point, index, index == self.points.len())
     }
 
-    /// Whether the normal force or a tilting moment changes (or its motion, where that is given), or
-    /// no increment has been solved on both grids.
+    /// Whether the increment must be solved on both grids: the normal force or a tilting moment changes (or its
+    /// motion, where that is given), or none has been solved on both so far.
     fn presses_anew(&self, point: &LoadPoint) -> bool {
         let step = point
             .loads
@@ -215,7 +216,8 @@ impl March {
         ended.expect("both grids go along one path")
     }
 
-    /// Carries the state of the fine grid to the present increment; returns whether it was behind.
+    /// Brings the state of the fine grid to the present increment of the path grid; returns whether it was
+    /// behind.
     fn catch_up(&mut self) -> bool {
         let Some(along) = &self.state.along else {
             return false;
@@ -231,7 +233,7 @@ impl March {
         true
     }
 
-    /// The state with its fields at the present increment.
+    /// The state, on the fine grid, with its fields at the present increment.
     pub(super) fn caught_up(&self) -> Cow<'_, State> {
         match &self.state.along {
             Some(along) if along.is_ahead() => Cow::Owned(self.carried(along)),
@@ -253,7 +255,8 @@ impl March {
         carried(problem, &self.state, along, ratio)
     }
 
-    /// The increment that was solved on the coarse grid alone.
+    /// Accounts for an increment that was solved on the coarse grid alone: it has the numbers of the last
+    /// increment on both grids, plus the change on the coarse grid.
     fn in_between(&mut self, coarse: &Increment) -> Increment {
         let state = &mut self.state;
         let rows = state.along.as_ref().and_then(|along| along.rows);

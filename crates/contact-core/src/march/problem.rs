@@ -45,6 +45,7 @@ pub(super) struct Largest {
 }
 
 impl Largest {
+    /// The largest force and approach of a path.
     pub(super) fn from_path(path: &LoadPath) -> Self {
         Self {
             W: path.W_max(),
@@ -62,8 +63,8 @@ pub(super) struct Drives {
 }
 
 impl Drives {
-    /// The drives of an increment to a point. Motions that are odd under the mirror vanish by
-    /// symmetry.
+    /// The load or the motion that drives each of the six motions in the increment to a point. Motions that are
+    /// odd under the mirror vanish by symmetry.
     pub(super) fn new(problem: &Problem, arms: &Arms, state: &State, point: &LoadPoint) -> Self {
         let cell_area = problem.cell_area();
         let (forces, given) = (point.loads.forces(), point.loads.given.motions());
@@ -118,8 +119,8 @@ impl Problem {
         Ok(())
     }
 
-    /// Estimate of the approach at the loads of a point, from first touch \[m\]: the approach of a Hertz
-    /// contact, scaled like the square of the expected contact radius for coatings.
+    /// Estimate of the approach \[m\] at the loads of a point, from first touch on: the approach of a Hertz
+    /// contact. For coatings it is scaled like the square of the expected contact radius.
     pub(super) fn approach_at(&self, point: &LoadPoint, touching: f64) -> f64 {
         let hertz = || {
             let radius = expected_radius(&self.scene);

@@ -45,7 +45,7 @@ impl Reached {
         reached
     }
 
-    /// Takes another increment into account.
+    /// Takes an increment into account: largest cells, radius, pressure, strain, and the ends of branches.
     pub fn see(&mut self, increment: &Increment) {
         self.cells_per_radius = self.cells_per_radius.max(increment.cells_per_radius);
         self.contact_radius = self.contact_radius.max(increment.contact_radius);
@@ -103,7 +103,7 @@ impl Reached {
         estimated.collect()
     }
 
-    /// Doubts the spots of uneven bodies that have fewer than [`FEW_CELLS`] across their radius.
+    /// A warning if the spots of uneven bodies have fewer than [`FEW_CELLS`] across their radius.
     fn doubt_of_asperities(&self) -> Option<String> {
         let (cells, spots) = (self.cells_per_radius, &self.spots);
         if cells >= FEW_CELLS {

@@ -66,7 +66,8 @@ struct Remembered {
 }
 
 impl Remembered {
-    /// Reads the memory from the state after an increment.
+    /// Reads the function of the radius that the stick zone remembers from the state after an increment, by a
+    /// fit of splines.
     fn from_state(scene: &Scene, mirror: Mirror, state: &State, row: &Increment) -> Self {
         let places = places(scene, mirror, state.window);
         let now = &state.interface;
@@ -115,7 +116,8 @@ impl Remembered {
         remembered
     }
 
-    /// The radial displacement that means no slip at x = r/c \[m\].
+    /// The radial displacement \[m\] without slip at the radius x = r/c, c being the stick radius. Beyond x = 1
+    /// it goes on as a parabola.
     fn displacement_at(&self, x: f64) -> f64 {
         if x <= 1.0 {
             let terms = terms(x).into_iter().zip(self.law);
@@ -131,7 +133,8 @@ impl Remembered {
         taylor[0] + beyond * (taylor[1] + beyond * (0.5 * taylor[2] - self.behind))
     }
 
-    /// Puts it into a state on a finer grid, with the cells beyond c at the limit of friction.
+    /// Puts the remembered displacement into a state on a finer grid. Cells beyond the stick radius c are at
+    /// the limit of friction.
     fn put_into(&self, state: &mut State, scene: &Scene, mirror: Mirror) {
         let places = places(scene, mirror, state.window);
         let shift = [state.motion.delta_x, state.motion.delta_y];
@@ -150,7 +153,8 @@ impl Remembered {
     }
 }
 
-/// x^2 B(m x + 1 - k)
+/// The terms of the fit at x = r/c: x^2 B(m x + 1 - k) for each k, B the cubic B-spline and m the number of
+/// pieces.
 fn terms(x: f64) -> [f64; TERMS] {
     std::array::from_fn(|k| {
         let s = (PIECES as f64 * x + 1.0 - k as f64).abs();
@@ -178,7 +182,7 @@ pub(super) fn remembers_enough(row: &Increment) -> bool {
 }
 
 impl March {
-    /// Whether the end of the branch of a point is solved from what the stick zone remembers.
+    /// Whether the branch of a point is an indentation whose end is solved from what the stick zone remembers.
     pub(super) fn remembers(&self, point: &LoadPoint) -> bool {
         point.branch == 0 && is_remembered(&self.problem.scene, &self.problem.plan)
     }

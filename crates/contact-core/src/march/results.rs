@@ -152,6 +152,7 @@ pub struct Work {
 impl std::ops::Add for Work {
     type Output = Self;
 
+    /// Adds work count by count.
     fn add(self, other: Self) -> Self {
         Self {
             convolutions: self.convolutions + other.convolutions,

@@ -50,10 +50,10 @@ pub(super) fn reach(
     if !problem.plan.methods.retries {
         return ended;
     }
-    if stalled(&ended) && problem.plan.methods.extrapolation {
+    if has_not_converged(&ended) && problem.plan.methods.extrapolation {
         ended = whole(false);
     }
-    if !stalled(&ended) || domain.is_spent() {
+    if !has_not_converged(&ended) || domain.is_spent() {
         return ended;
     }
     let before = state.clone();
@@ -96,7 +96,8 @@ pub(super) fn why(problem: &Problem, domain: &Domain) -> String {
     parts.concat()
 }
 
-fn stalled(ended: &Result<Increment, Failure>) -> bool {
+/// Whether an increment has ended without convergence, so that halves may help.
+fn has_not_converged(ended: &Result<Increment, Failure>) -> bool {
     matches!(ended, Err(Failure::Error(Error::NotConverged { .. })))
 }
 
@@ -112,7 +113,7 @@ fn in_steps(
     let mut whole: Option<Increment> = None;
     let mut take = |state: &mut State, to: &LoadPoint| {
         let mut ended = increment(problem, domain, state, ws, to, true);
-        if problem.plan.methods.retries && stalled(&ended) && !domain.is_spent() {
+        if problem.plan.methods.retries && has_not_converged(&ended) && !domain.is_spent() {
             ended = in_halves(problem, domain, state, ws, to, HALVINGS);
         }
         let step = ended.map_err(with_room_to_enter)?;
@@ -131,7 +132,7 @@ fn in_steps(
     Ok(increment)
 }
 
-/// Adds to the contact of a too narrow window the cells that entering cells need around them.
+/// Widens the window that a failure asks for by the cells that entering cells need around them.
 fn with_room_to_enter(failure: Failure) -> Failure {
     match failure {
         Failure::Narrow(half) => Failure::Narrow(half.map(|cells| cells + AROUND)),
@@ -139,7 +140,7 @@ fn with_room_to_enter(failure: Failure) -> Failure {
     }
 }
 
-/// The increment to `point` in two halves, halved further if needed.
+/// The increment to `point` in two halves, each halved again if needed, `halvings` times at most.
 fn in_halves(
     problem: &Problem,
     domain: &mut Domain,
@@ -150,7 +151,7 @@ fn in_halves(
 ) -> Result<Increment, Failure> {
     let mut piece = |state: &mut State, point: &LoadPoint| {
         let ended = increment(problem, domain, state, ws, point, true);
-        if halvings > 1 && stalled(&ended) && !domain.is_spent() {
+        if halvings > 1 && has_not_converged(&ended) && !domain.is_spent() {
             return in_halves(problem, domain, state, ws, point, halvings - 1);
         }
         ended
@@ -168,8 +169,8 @@ fn in_halves(
 }
 
 impl Increment {
-    /// Both as one: the state at the end of the second, the sums of energies and work, the larger
-    /// residuals.
+    /// Joins two increments to one: the state at the end of the second, the sums of energies and work, the
+    /// larger residuals.
     pub(super) fn followed_by(self, second: &Self) -> Self {
         let (e, f) = (self.energy, second.energy);
         let (r, s) = (self.residuals, second.residuals);

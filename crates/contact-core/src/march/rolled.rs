@@ -34,7 +34,7 @@ pub(super) struct Roll {
 }
 
 impl Roll {
-    /// Rolling and strain of the increment to a point.
+    /// The distance rolled in cells and the strain of the increment to a point.
     pub(super) fn new(problem: &Problem, state: &State, point: &LoadPoint) -> Self {
         let (scene, now, before) = (&problem.scene, &point.loads, &state.loads);
         let at = |rolled: f64| (rolled / scene.grid.dx).round() as isize;
@@ -101,8 +101,8 @@ impl Roll {
         h[n] - from
     }
 
-    /// Least distance of the contact from the border of the cells \[cells\], for the displacement
-    /// of entering material.
+    /// Least distance of the contact from the border of the cells \[cells\], so that the displacement of the
+    /// entering material is known.
     pub(super) fn margin(&self) -> usize {
         self.cells.unsigned_abs()
     }
@@ -126,8 +126,8 @@ pub(super) struct Rolled {
 }
 
 impl Rolled {
-    /// `None` without rolling and stretch. Fails, with the cells left, if the contact rolls off the
-    /// cells.
+    /// Carries the fields of a state along with the material. `None` without rolling and stretch. If the
+    /// contact rolls off the cells it fails, with the number of free cells left.
     pub(super) fn new(
         roll: &Roll,
         geometry: &Geometry,
@@ -191,6 +191,8 @@ fn free_cells(roll: &Roll, geometry: &Geometry, mirror: Mirror, p: &[f64]) -> us
     }
 }
 
+/// The cell in which the material of cell n was before it moved by so many `cells` along x, if that is on the
+/// grid.
 fn source(geometry: &Geometry, mirror: Mirror, n: usize, cells: isize) -> Option<usize> {
     let rows = mirror.rows(geometry.grid.ny);
     let from = n as isize + cells * rows as isize;
@@ -198,6 +200,7 @@ fn source(geometry: &Geometry, mirror: Mirror, n: usize, cells: isize) -> Option
     inside.then_some(from as usize)
 }
 
+/// A field after its material has moved by so many `cells` along x; zero for material from beyond the grid.
 fn rolled(geometry: &Geometry, mirror: Mirror, field: &[f64], cells: isize) -> Vec<f64> {
     let from = |n: usize| source(geometry, mirror, n, cells).map_or(0.0, |n| field[n]);
     (0..field.len()).map(from).collect()

@@ -47,13 +47,15 @@ impl March {
             self.stop_on(flag);
         }
         before.reserve(self.points().len().saturating_sub(before.len()));
-        let outcome = (self.go_on(&mut before, observer))
+        let outcome = (self.advance_to_end(&mut before, observer))
             .and_then(|()| Reached::from_increments(&before).check(self.scene()));
         let ended = observer.on_end(&self, outcome.as_ref().err());
         outcome.and(ended).map(|()| before)
     }
 
-    fn go_on(
+    /// Computes and appends the increments up to the end of the path, or to the first failure, and calls the
+    /// observer after each.
+    fn advance_to_end(
         &mut self,
         increments: &mut Vec<Increment>,
         observer: &mut dyn Observer,
@@ -161,7 +163,7 @@ impl BranchSummary {
     }
 }
 
-/// One summary per branch begun.
+/// Summarises the increments: one summary per branch begun, with the numbers at its end and sums over it.
 pub fn summarise(increments: &[Increment]) -> Vec<BranchSummary> {
     increments
         .chunk_by(|a, b| a.point.branch == b.point.branch)

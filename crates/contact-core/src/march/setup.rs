@@ -23,6 +23,7 @@ pub(super) enum Failure {
 }
 
 impl From<Error> for Failure {
+    /// An error that ends the run, as a failure of the increment.
     fn from(error: Error) -> Self {
         Self::Error(error)
     }
@@ -39,7 +40,7 @@ pub(super) struct Workspace {
 }
 
 impl Workspace {
-    /// For fields of `cells` cells.
+    /// Allocates buffers for fields of `cells` cells and sets friction to `mu`.
     pub(super) fn new(cells: usize, mu: f64) -> Self {
         Self {
             mu: vec![mu; cells],
@@ -91,8 +92,8 @@ impl Setup<'_> {
             .map_or(&self.state.residual, |rolled| &rolled.residual)
     }
 
-    /// Tractions an increment earlier; `ratio` is the change of the loads over the change of the last
-    /// increment.
+    /// Pressure and shear an increment earlier. `ratio` is the change of the loads in this increment over the
+    /// change in the last one.
     fn earlier(&self, ratio: f64) -> EarlierTractions<'_> {
         let (p, q) = match self.rolled {
             Some(rolled) => (&rolled.p_before, &rolled.q_before),
@@ -101,7 +102,8 @@ impl Setup<'_> {
         EarlierTractions::new(p, q, ratio)
     }
 
-    /// The start of the slip increment; with the earlier tractions if the turn of the shear counts.
+    /// The start of the slip: the interface after the last increment, with the tractions of the one before
+    /// if the turn of the shear counts (`turns`).
     fn start(&self, turns: bool) -> Start<'_> {
         let turns = turns && self.problem.plan.methods.slip_rotation;
         Start {
@@ -116,7 +118,7 @@ impl Setup<'_> {
         }
     }
 
-    /// Whether loads and given motions stay as they are.
+    /// Whether neither loads nor given motions change in the increment.
     pub(super) fn stays(&self) -> bool {
         let (state, loads) = (self.state, &self.point.loads);
         let step = loads.since(&state.loads, state.motion.motions());
@@ -152,7 +154,8 @@ pub(super) struct Equations<'a> {
 }
 
 impl Solver<'_> {
-    /// Solves the equations from a guess of the tractions.
+    /// Solves the equations `wanted` of an increment (all cells, or the old contact) from a guess `now` of the
+    /// tractions.
     pub(super) fn solve(
         &mut self,
         setup: &Setup<'_>,
@@ -189,7 +192,8 @@ impl Solver<'_> {
         }
     }
 
-    /// No tractions: the undeformed surfaces just touch.
+    /// The solution without contact: no tractions, the undeformed surfaces at the approach `touching` \[m\] at
+    /// which they just touch.
     pub(super) fn apart(&mut self, setup: &Setup<'_>, touching: f64) -> Solution {
         let apart = Interface::unloaded(setup.geometry.h_init.len());
         let [_, tilts @ ..] = setup.drives.normal.given;
@@ -208,7 +212,7 @@ impl Solver<'_> {
     }
 }
 
-/// Contact cells, and slip cells.
+/// Number of contact cells, and of slip cells.
 pub(super) fn count(now: &Interface) -> (usize, usize) {
     let contact = now.p.iter().filter(|&&p| p > 0.0).count();
     (contact, now.slips.iter().filter(|&&slips| slips).count())

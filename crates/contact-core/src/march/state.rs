@@ -60,7 +60,7 @@ pub struct State {
 }
 
 impl State {
-    /// Two bodies that just touch, at an approach \[m\].
+    /// Two bodies that just touch, at the approach `touching` \[m\], on so many kept `cells`.
     pub(crate) fn unloaded(window: (usize, usize), cells: usize, touching: f64) -> Self {
         let field = || vec![0.0; cells];
         let pair = || [field(), field()];
@@ -129,8 +129,8 @@ impl State {
         [0, 1, 2].map(|k| motions[k] * arms.motion_unit(k))
     }
 
-    /// Change of the loads to a point over the change of the last increment, if the path continues in its
-    /// direction.
+    /// Ratio of the change of the loads to a point to the change of the last increment, if the path goes on in
+    /// its direction; else none.
     pub(super) fn going_on(&self, point: &LoadPoint) -> Option<f64> {
         let step = point.loads.since(&self.loads, self.motion.motions());
         step.projection_factor(&self.step)
@@ -150,7 +150,7 @@ pub(crate) struct Along {
 }
 
 impl Along {
-    /// Before the first increment, with the coarse grid in that state.
+    /// Before the first increment, when both grids stand at the coarse grid's `state`.
     pub(super) fn beginning(state: &State) -> Self {
         Self {
             now: state.clone(),

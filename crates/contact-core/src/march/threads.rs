@@ -55,6 +55,7 @@ pub(super) fn with_busy_threads<R: Send>(work: impl FnOnce() -> R + Send) -> R {
 struct RaiseOnDrop<'a>(&'a AtomicBool);
 
 impl Drop for RaiseOnDrop<'_> {
+    /// Raises the flag, so that the polling threads stop, even if the work panics.
     fn drop(&mut self) {
         self.0.store(true, Ordering::Release);
     }

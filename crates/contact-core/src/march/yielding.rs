@@ -29,7 +29,7 @@ impl March {
         Some(yields.bodies.residual_of(self.state.yielded.as_ref()?))
     }
 
-    /// A gap with the offsets of the surfaces.
+    /// Adds the residual displacement of the surfaces to a gap.
     pub(super) fn offset_gap(&self, gap: Array2<f64>) -> Array2<f64> {
         match self.residual() {
             Some(residual) => gap + residual.gap,
@@ -37,11 +37,13 @@ impl March {
         }
     }
 
-    /// The increment to a point, in halves if it does not converge.
+    /// Computes the increment of yielding bodies to a point, in halves if it does not converge.
     pub(super) fn advance_yielding(&mut self, point: &LoadPoint) -> Result<Increment, Error> {
         self.in_yielding_halves(point, HALVINGS)
     }
 
+    /// Computes the increment of yielding bodies to a point. If it does not converge, it is computed in two
+    /// halves, each halved again up to `halvings` times; after a failure the state is as before.
     fn in_yielding_halves(&mut self, point: &LoadPoint, halvings: u32) -> Result<Increment, Error> {
         let start = self.state.clone();
         let failure = match self.pass_to(point) {
@@ -66,7 +68,7 @@ impl March {
         ended
     }
 
-    /// The increment to a point in one piece; after a failure the state is as before.
+    /// Computes the increment to a point in one piece; after a failure the state is as before.
     fn pass_to(&mut self, point: &LoadPoint) -> Result<Increment, Error> {
         let start = self.state.clone();
         let ended = self.settle(point);
@@ -76,7 +78,8 @@ impl March {
         ended
     }
 
-    /// The increment of bodies that have not yielded before and do not in it: solved as for elastic bodies.
+    /// Solves the increment as for elastic bodies. None, with the state as before, if the bodies have yielded
+    /// before or would yield in it.
     fn elastically(&mut self, point: &LoadPoint) -> Result<Option<Increment>, Error> {
         let fresh = |yielded: &Yielded| yielded.bodies.iter().all(|body| body.points.is_empty());
         let Some(before) = self.state.yielded.clone().filter(|yielded| fresh(yielded)) else {
@@ -106,8 +109,8 @@ impl March {
         Ok(None)
     }
 
-    /// The increment on the volume grid of the state. Where a point yields at the border of that grid it is
-    /// repeated on the one that it grows to.
+    /// Solves the increment on the volume grid of the state. If a point yields at the border of that grid, it
+    /// is solved again on the larger one.
     fn settle(&mut self, point: &LoadPoint) -> Result<Increment, Error> {
         let start = self.state.clone();
         let increment = self.settle_on_grid(point)?;
@@ -126,7 +129,7 @@ impl March {
         Ok(repeated)
     }
 
-    /// Takes the volume grid of the state.
+    /// Rebuilds the yielding bodies if the state is on another volume grid than they are.
     pub(super) fn fit_volume(&mut self) -> Result<(), Error> {
         if let (Some(yields), Some(state)) = (&mut self.yielding, &self.state.yielded) {
             yields.fit(&self.problem.scene, state)?;
@@ -134,6 +137,8 @@ impl March {
         Ok(())
     }
 
+    /// Solves contact and plastic flow in turn on one volume grid, until the residual displacements that the
+    /// contact was solved with agree with the strain that follows; fails after [`MOST_PASSES`] passes.
     fn settle_on_grid(&mut self, point: &LoadPoint) -> Result<Increment, Error> {
         self.fit_volume()?;
         if let Some(increment) = self.elastically(point)? {

@@ -26,7 +26,7 @@ impl Yields {
         }))
     }
 
-    /// Takes the volume grid that a state of the scene is on.
+    /// Rebuilds the bodies if the state is on another volume grid.
     pub(super) fn fit(&mut self, scene: &Scene, state: &Yielded) -> Result<(), Error> {
         if state.grown != self.bodies.volume().grown
             && let Some(bodies) = Yielding::on_cells(scene, self.most, state.grown)?

@@ -32,6 +32,7 @@ struct ArraysPerCell {
 }
 
 impl ArraysPerCell {
+    /// Numbers of arrays per cell that a solution needs, by the kernels that it computes.
     fn for_kernels(kernels: KernelSet) -> Self {
         let (fields, spectra) = match kernels {
             KernelSet::Normal => (44.0, 15.0),
@@ -91,6 +92,7 @@ fn window_share(scene: &Scene) -> f64 {
     }
 }
 
+/// Number of cells of a grid, as a float.
 fn cells(grid: &Grid) -> f64 {
     grid.nx as f64 * grid.ny as f64
 }

@@ -101,8 +101,8 @@ impl Methods {
 /// of it.
 const SINGLE: f64 = 1e-6;
 
-/// Whether, and why, single precision is enough for the response to a change of the tractions; the
-/// response to the whole tractions is computed in double precision in each increment.
+/// Whether single precision is enough for the response to changes of the tractions: Ok has the reason why, Err
+/// the reason why not. The response to the whole tractions is computed in double precision in each increment.
 pub(super) fn decide_single_precision(scene: &Scene) -> Result<&'static str, &'static str> {
     if !scene.settings.skip.single_precision {
         Err("skip.single_precision is off")
@@ -117,7 +117,7 @@ pub(super) fn decide_single_precision(scene: &Scene) -> Result<&'static str, &'s
     }
 }
 
-/// Whether, and why, a window around the contact is enough to solve on.
+/// Whether it is enough to solve on a window around the contact: Ok has the reason why, Err the reason why not.
 pub(super) fn decide_window(scene: &Scene) -> Result<&'static str, &'static str> {
     if !scene.settings.skip.contact_window {
         return Err("skip.contact_window is off");
@@ -137,6 +137,7 @@ pub(super) fn decide_window(scene: &Scene) -> Result<&'static str, &'static str>
     Ok("a window goes with the contact; the gap beyond it is checked")
 }
 
+/// Whether the scene convolves in the frequency domain, without influence coefficients.
 pub(super) fn uses_frequency_domain(scene: &Scene) -> bool {
     let method = &scene.settings.kernel.method;
     matches!(method, KernelMethod::FrequencyDomain { .. })

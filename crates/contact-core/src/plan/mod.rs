@@ -85,7 +85,7 @@ impl Plan {
         points
     }
 
-    /// The plan of a scene.
+    /// Plans a scene: which kernels, symmetries, windows and increments it needs, each with the reason.
     pub fn new(scene: &Scene) -> Self {
         let mut lines = Vec::new();
         let mut rule = |subject: &str, verdict: Result<&str, &str>| {
@@ -134,7 +134,8 @@ impl Plan {
     }
 }
 
-/// Whether, and why, both bodies have the same coefficients.
+/// Whether both bodies have the same coefficients, so that they are computed once: Ok has the reason why, Err
+/// the reason why not.
 fn compare_bodies(scene: &Scene) -> Result<&'static str, &'static str> {
     if layers(&scene.body1, scene) == layers(&scene.body2, scene) {
         Ok("as in body 2, which has the same layers")
@@ -143,7 +144,8 @@ fn compare_bodies(scene: &Scene) -> Result<&'static str, &'static str> {
     }
 }
 
-/// Whether, and why, pressure causes no tangential mismatch.
+/// Whether pressure causes no tangential mismatch of the surfaces, so that coupling is skipped: Ok has the
+/// reason why, Err the reason why not.
 fn decide_coupling(scene: &Scene) -> Result<&'static str, &'static str> {
     if scene.friction.mu == 0.0 {
         return Ok("without shear there is nothing to couple");
@@ -169,6 +171,7 @@ fn decide_coupling(scene: &Scene) -> Result<&'static str, &'static str> {
     }
 }
 
+/// The layers of a body as the plan compares them; without equal layers if the scene allows to skip these.
 fn layers(body: &Body, scene: &Scene) -> Vec<[f64; 5]> {
     body.layers(scene.settings.skip.equal_layers)
 }
@@ -181,7 +184,8 @@ fn is_mirror_symmetric(h: &Array2<f64>) -> bool {
         .all(|((i, j), h_ij)| (h_ij - h[(i, ny - 1 - j)]).abs() <= 1e-12 * largest)
 }
 
-/// Whether, and why, the solution is its own mirror image under y -> -y.
+/// Whether the solution is its own mirror image under y -> -y, so that half of it is solved: Ok has the reason
+/// why, Err the reason why not.
 fn decide_mirror(scene: &Scene) -> Result<&'static str, &'static str> {
     if !scene.settings.skip.mirror {
         return Err("skip.mirror is off");

@@ -44,8 +44,8 @@ const FARTHEST: f64 = 200.0;
 const CERTAIN: f64 = 0.97;
 
 impl Scene {
-    /// Fails at impossible values: a contact as wide as a body, heights beyond the length of
-    /// their map.
+    /// Fails at values that are impossible together: a contact as wide as a body, a shift that no contact
+    /// makes, heights beyond the length of their map.
     pub(crate) fn check_plausibility(&self) -> Result<(), Error> {
         for (key, body) in [("body1", &self.body1), ("body2", &self.body2)] {
             for map in height_maps(&body.shape) {
@@ -135,6 +135,7 @@ impl Scene {
 
     /// Whether both surfaces are sums of paraboloids alone, so that nothing keeps a contact small.
     pub(crate) fn is_sum_of_paraboloids(&self) -> bool {
+        /// Whether a shape is flat or a paraboloid, without flanks or ends that keep a contact small.
         fn is_paraboloid(shape: &Shape) -> bool {
             match shape {
                 Shape::Flat | Shape::Sphere { .. } | Shape::Ellipsoid { .. } => true,
@@ -233,7 +234,7 @@ impl Scene {
         doubts
     }
 
-    /// Returns the doubts about numbers that are hardly in SI units.
+    /// Warnings about numbers that are hardly in SI units, such as moduli in GPa and lengths in mm.
     fn doubts_of_units(&self) -> Vec<String> {
         let mut doubts = Vec::new();
         let mut stiffest: f64 = 0.0;
@@ -449,7 +450,7 @@ fn doubts_of_yielding(key: &str, mut law: Plastic, E: f64) -> Vec<String> {
     doubts
 }
 
-/// The body as if it were of its softest material.
+/// The body with all layers replaced by its softest material.
 pub(super) fn softest(body: &Body) -> Body {
     let coatings = body.coatings.iter().map(|c| c.material);
     let modulus = |m: &Elastic| m.E / (1.0 - m.nu * m.nu);
@@ -471,7 +472,7 @@ fn radii_of_curvature(shape: &Shape) -> Vec<f64> {
     }
 }
 
-/// Angles of a shape by their names \[rad\].
+/// The angles of a shape \[rad\], each with its key.
 fn angles(shape: &Shape) -> Vec<(&'static str, f64)> {
     match *shape {
         Shape::Ellipsoid { angle, .. }
@@ -505,6 +506,7 @@ fn height_maps(shape: &Shape) -> Vec<&SurfaceMap> {
     }
 }
 
+/// Highest less lowest point of a map \[m\].
 fn height_range(map: &SurfaceMap) -> f64 {
     let (low, high) = map
         .values

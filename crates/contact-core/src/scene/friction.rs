@@ -300,7 +300,7 @@ pub enum Dependence {
 }
 
 impl Law<'_> {
-    /// The variables that it depends on.
+    /// The variables (place, history, cycles, ...) that the coefficient of this law depends on.
     pub(crate) fn depends_on(&self) -> &'static [Dependence] {
         match self {
             Self::Direction(_) => &[Dependence::Direction],
@@ -342,7 +342,7 @@ impl Law<'_> {
         }
     }
 
-    /// Describes the law, with its value if it is one number.
+    /// A phrase that describes the law, and its value if it is one number.
     fn describe(&self) -> (&'static str, Option<f64>) {
         match self {
             Self::Direction(mu) => ("mu along y", Some(*mu)),
@@ -444,7 +444,7 @@ impl Law<'_> {
 }
 
 impl FrictionHistory {
-    /// Fails if the table has no meaning.
+    /// Fails if the table of history and factor is empty, does not grow, or has a number without meaning.
     fn check(&self) -> Result<(), Error> {
         let (key, table) = ("friction.history.table", &self.table);
         if table.is_empty() {
@@ -461,7 +461,8 @@ impl FrictionHistory {
         }
     }
 
-    /// The factor after a history.
+    /// The factor of the coefficient after a history: linear between the rows of the table, constant beyond
+    /// them.
     pub fn factor(&self, history: f64) -> f64 {
         let table = &self.table;
         let after = table.partition_point(|(at, _)| *at <= history);

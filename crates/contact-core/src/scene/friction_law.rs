@@ -106,7 +106,8 @@ impl UserFriction {
     }
 }
 
-/// Refuses a law of which only the name is known.
+/// The error for a run with a user's law whose function is not there, since a store or file keeps its name
+/// only.
 pub fn missing_law_error() -> Error {
     Error::invalid(
         "friction.law",

@@ -52,6 +52,7 @@ pub struct PrescribedMotions {
 }
 
 impl Default for PrescribedMotions {
+    /// Approach and shifts free, rotations held at zero.
     fn default() -> Self {
         Self {
             delta_z: None,

@@ -65,11 +65,13 @@ impl Scene {
     }
 }
 
+/// Fails at a number of a body beyond the range of the arithmetic; `key` is the key of the body.
 fn check_body(key: &str, body: &Body) -> Result<(), Error> {
     check_layers(key, body)?;
     check_shape(&format!("{key}.shape"), &body.shape)
 }
 
+/// Fails at a modulus or a thickness beyond the range of the arithmetic; `key` is the key of the body.
 fn check_layers(key: &str, body: &Body) -> Result<(), Error> {
     check_range(SMALLEST, &format!("{key}.E"), body.substrate.E)?;
     for (i, coating) in body.coatings.iter().enumerate() {
@@ -80,6 +82,7 @@ fn check_layers(key: &str, body: &Body) -> Result<(), Error> {
     Ok(())
 }
 
+/// Fails at a number of a shape beyond the range of the arithmetic; `key` is the key of the shape.
 fn check_shape(key: &str, shape: &Shape) -> Result<(), Error> {
     for (name, value, range) in shape.parameters() {
         let smallest = if range == Range::Any { 0.0 } else { SMALLEST };

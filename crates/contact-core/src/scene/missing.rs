@@ -63,6 +63,7 @@ pub(super) fn treat_holes(
     }
 }
 
+/// A sentence on how many points have no number and where the first one is, with the two remedies.
 fn describe_holes(values: &Array2<f64>, holes: usize) -> String {
     let (nx, ny) = values.dim();
     let missing = values.indexed_iter().filter(|(_, v)| v.is_nan());

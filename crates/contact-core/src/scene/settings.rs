@@ -36,6 +36,7 @@ pub struct KernelSettings {
 }
 
 impl Default for KernelSettings {
+    /// Hankel transforms to a tolerance of 1e-10.
     fn default() -> Self {
         Self {
             method: KernelMethod::Hankel,
@@ -96,6 +97,7 @@ pub struct SolverSettings {
 }
 
 impl Default for SolverSettings {
+    /// All methods on, the tolerance of the path 0.5 %.
     fn default() -> Self {
         Self {
             preset: Preset::Fast,
@@ -157,6 +159,7 @@ pub struct SkipSettings {
 }
 
 impl Default for SkipSettings {
+    /// All skips on, except path-independent branches.
     fn default() -> Self {
         Self {
             equal_layers: true,

@@ -119,6 +119,7 @@ impl SurfaceMap {
         Ok(())
     }
 
+    /// Fails if the map does not cover the grid; the error suggests the largest grid that it covers.
     pub(crate) fn check_on(&self, grid: &Grid, key: &str) -> Result<(), Error> {
         let (nx, ny) = self.values.dim();
         let covers = |n: usize, d: f64, cells: usize, cell: f64| {

@@ -58,8 +58,8 @@ impl Breadth {
 }
 
 impl Scene {
-    /// The largest half width over radius of a body, for a contact of that half width \[m\] in
-    /// every direction \[rad\]; `None` where no body is curved.
+    /// The half width of the contact over the radius of a body, where this ratio is largest; `half_width` is
+    /// the half width \[m\] in a direction \[rad\]. `None` where no body is curved.
     pub fn breadth(&self, half_width: impl Fn(f64) -> f64) -> Option<Breadth> {
         let bodies = [&self.body1, &self.body2];
         let mut breadths = Vec::new();
@@ -113,7 +113,7 @@ impl Scene {
         breadth.map_or(Ok(()), |breadth| stiffest_scene.check_ratio(&breadth))
     }
 
-    /// Fails at a contact that is as wide as a body.
+    /// Fails at a contact whose half width over the radius of a body is [`WIDEST`] or more.
     pub(crate) fn check_ratio(&self, breadth: &Breadth) -> Result<(), Error> {
         if breadth.ratio() < WIDEST {
             return Ok(());
@@ -179,7 +179,7 @@ fn normal_curvature([xx, xy, yy]: [f64; 3], azimuth: f64) -> f64 {
     xx * c * c + 2.0 * xy * s * c + yy * s * s
 }
 
-/// The body as if it were of its stiffest material.
+/// The body with all layers replaced by its stiffest material.
 pub(super) fn stiffest(body: &Body) -> Body {
     let coatings = body.coatings.iter().map(|c| c.material);
     let modulus = |m: &crate::scene::Elastic| m.E / (1.0 - m.nu * m.nu);

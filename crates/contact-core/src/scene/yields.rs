@@ -171,6 +171,7 @@ impl Scene {
         }
     }
 
+    /// Whether the two principal curvatures of the gap are equal.
     fn is_round(&self) -> bool {
         let (k_1, k_2) = self.principal_curvatures();
         k_1 - k_2 <= 1e-9 * k_1

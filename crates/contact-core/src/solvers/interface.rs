@@ -54,7 +54,7 @@ impl Interface {
         [&self.q[0], &self.q[1], &self.p]
     }
 
-    /// The unknowns of the tangential solvers.
+    /// Borrows shear, tangential displacements and slip set as the unknowns of the tangential solvers.
     pub(super) fn shear(&mut self) -> Shear<'_> {
         let ([q_x, q_y], [u_x, u_y]) = (&mut self.q, &mut self.u);
         Shear {

@@ -67,6 +67,8 @@ impl<'a> Response<'a> {
         self.apply_or_respond(tractions, displacements);
     }
 
+    /// Computes the displacements in double precision where `exact` is set, otherwise in the precision for
+    /// changes.
     fn apply_or_respond(&mut self, tractions: Tractions<'_>, displacements: Displacements<'_>) {
         if self.exact {
             self.op.apply(tractions, displacements);

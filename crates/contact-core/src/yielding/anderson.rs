@@ -18,9 +18,10 @@ pub(super) struct Anderson {
 }
 
 impl Anderson {
-    /// The next x from the present one and its image: x + f - sum c_j (dx_j + df_j), with c the least
-    /// squares of f - sum c_j df_j. The first `fixed` unknowns are always there; the unknowns of points follow, of
-    /// as many of each body as in `counts`. New points have not changed before.
+    /// The next unknowns from the present x and their image f + x: x + f - sum c_j (dx_j + df_j), with c the
+    /// least squares of f - sum c_j df_j. The first `fixed` unknowns are always there. After them come the
+    /// components of the points of each body, as many points as in `counts`; new points have not changed
+    /// before.
     pub(super) fn mixed(
         &mut self,
         x: &[f64],
@@ -66,7 +67,7 @@ impl Anderson {
         mixed
     }
 
-    /// The least squares, by normal equations.
+    /// The weights c of the last changes that reduce f most: least squares by normal equations.
     fn weights(&self, f: &[f64]) -> Vec<f64> {
         let n = self.differences.len();
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();

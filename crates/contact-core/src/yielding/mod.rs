@@ -69,7 +69,7 @@ impl Yielding {
         Self::on_cells(scene, volume_cells(scene.grid.plane_strain), grown)
     }
 
-    /// Builds as [`Self::from_scene`] does, with at most so many cells along a side before the grid grows.
+    /// Builds as [`Self::from_scene`] does, with at most `most` cells along a side before the grid grows.
     pub(crate) fn on_cells(scene: &Scene, most: usize, grown: bool) -> Result<Option<Self>, Error> {
         if !scene.yields() {
             return Ok(None);
@@ -133,6 +133,8 @@ impl Yielding {
         self.together(&bodies.map(|body| (body.body, &body.displacement[..])))
     }
 
+    /// Sums the displacements of the `bodies` (number, displacement with z into the body) to the residual
+    /// displacement of the contact.
     fn together<'a>(
         &self,
         bodies: &(impl Iterator<Item = (usize, &'a [f64])> + Clone),
@@ -211,7 +213,7 @@ impl Yielding {
         false
     }
 
-    /// Ends the increment: the state that the next one begins with.
+    /// Ends the increment and returns the state with which the next one begins.
     pub(crate) fn commit(&self, before: &Yielded) -> Yielded {
         let bodies = self.bodies.iter().enumerate();
         let bodies: Vec<PlasticState> = bodies
@@ -338,7 +340,8 @@ impl Yielding {
         }
     }
 
-    /// Whether the stress of a state without tractions yields nowhere, by a hundredth of the yield stress.
+    /// Whether the stress of a state after unloading stays below the yield stress everywhere, by at least a
+    /// hundredth.
     pub fn unloads_elastically(&mut self, state: &Yielded) -> bool {
         let whole = self.completed(state);
         let none = Array2::zeros((self.volume.grid().nx, self.volume.grid().ny));

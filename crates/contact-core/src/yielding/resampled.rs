@@ -1,7 +1,7 @@
 //! A smooth field between the centres of cells.
 
-/// A field on cells at the centres of `ratio` times as many along each side, by cubic polynomials
-/// through the four nearest values.
+/// A field of nx x ny cells on `ratio` times as many cells along x and y, by cubic polynomials through the four
+/// nearest values.
 pub(super) fn resampled(field: &[f64], (nx, ny): (usize, usize), ratio: [usize; 2]) -> Vec<f64> {
     if ratio == [1, 1] {
         return field.to_vec();

@@ -11,7 +11,7 @@ use crate::scene::{Body, Bond, Grid, Profile, Scene};
 const MOST_CELLS: usize = 64;
 const MOST_CELLS_OF_A_LINE: usize = 256;
 
-/// Most cells of the volume grid along a side.
+/// Largest number of cells of the volume grid along a side, before it grows.
 pub(crate) fn volume_cells(plane_strain: bool) -> usize {
     if plane_strain {
         MOST_CELLS_OF_A_LINE
@@ -59,9 +59,9 @@ pub struct Volume {
 }
 
 impl Volume {
-    /// Chosen for a scene: at most so many cells along a side, elements of a cell at
-    /// the surface and at interfaces, growing to a twelfth of the radius of the elastic contact, one to two
-    /// cells, down to where a point load of the largest force leaves 0.9 of the yield stress.
+    /// Chooses the volume grid of a scene, with at most `max_cells` along a side. Elements are as deep as a
+    /// cell at the surface and at interfaces. They grow to a twelfth of the radius of the elastic contact, one
+    /// to two cells, down to the depth where a point load of the largest force leaves 0.9 of the yield stress.
     pub(super) fn choose(scene: &Scene, max_cells: usize, grown: bool) -> Self {
         let grid = scene.grid;
         let sides = if grid.plane_strain {
@@ -124,7 +124,7 @@ impl Volume {
         (mesh.deepened(deeper)).map_err(|e| Error::invalid(e.key, e.value, e.allowed))
     }
 
-    /// The cell of this grid that a cell of the grown one is; `None` beyond it.
+    /// The cell of this grid that a cell of the grown grid is; `None` if it lies beyond this grid.
     pub fn cell(&self, of_largest: u32) -> Option<usize> {
         let n = of_largest as usize;
         let [i, j] = [n / self.largest[1], n % self.largest[1]];
@@ -133,13 +133,13 @@ impl Volume {
         (i < self.cells.nx && j < self.cells.ny).then_some(i * self.cells.ny + j)
     }
 
-    /// A cell of this grid as one of the grown grid: the number that a state knows it by.
+    /// The number of a cell of this grid in the grown grid, by which a state stores it.
     pub(super) fn of_largest(&self, cell: usize) -> u32 {
         let [i, j] = [cell / self.cells.ny, cell % self.cells.ny];
         ((i + self.left_out[0]) * self.largest[1] + j + self.left_out[1]) as u32
     }
 
-    /// Cells of the volume below the contact: along x, y, and those beyond them at each side.
+    /// The numbers of volume cells below the contact along x and y, and of those beyond them at each side.
     fn below_contact(&self) -> ([usize; 2], [usize; 2]) {
         let ratio = [self.ratio, self.ratio_along_y()];
         let contact = [self.grid.nx / ratio[0], self.grid.ny / ratio[1]];
@@ -168,6 +168,7 @@ impl Volume {
         }
     }
 
+    /// Cells of the contact along y in one cell of the volume.
     fn ratio_along_y(&self) -> usize {
         if self.cells.plane_strain {
             1

@@ -90,6 +90,7 @@ struct Bound<T> {
 }
 
 impl<T> Bound<T> {
+    /// Applies a function to all fields.
     fn map<U>(&self, f: impl Fn(&T) -> U) -> Bound<U> {
         Bound {
             m: f(&self.m),
@@ -350,7 +351,7 @@ impl Continued {
         ])
     }
 
-    /// The tractions within a cell; none where they are constant.
+    /// The interpolated tractions within a cell; none where they are taken as constant.
     pub fn tractions_within(&self, cell: (usize, usize)) -> Option<CellTractions> {
         let at = self.index_in_window(cell)?;
         let varying = self.varying[at];
@@ -413,6 +414,7 @@ impl CellTractions {
         std::array::from_fn(|c| q[c] + self.lacking[c])
     }
 
+    /// q_x, q_y, p \[Pa\] at an offset from the middle of the cell, in cells, by the interpolated fields.
     fn interpolated(&self, offset: (f64, f64)) -> [f64; 3] {
         let p = self.level.interpolate(offset).max(0.0).sqrt();
         let [x, y] = self
@@ -436,7 +438,7 @@ impl CellTractions {
     }
 }
 
-/// q/p; in cells beside the contact the mean over their neighbours inside.
+/// q/p of each cell. Cells beside the contact get the mean over their neighbours inside.
 fn ratio(q: &Array2<f64>, p: &Array2<f64>) -> Array2<f64> {
     let inside = Zip::from(q)
         .and(p)

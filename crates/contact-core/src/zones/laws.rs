@@ -11,7 +11,7 @@ pub enum Power {
 }
 
 impl Power {
-    /// The level of a value >= 0.
+    /// The level of a value >= 0: the value to this power.
     pub(crate) fn level_of(self, value: f64) -> f64 {
         let value = value.max(0.0);
         match self {

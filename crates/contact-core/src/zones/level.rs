@@ -79,8 +79,8 @@ impl Stencil {
         at_border: false,
     };
 
-    /// Adapts to a level that may have a kink in the middle of the zone, like the shortfall of
-    /// the shear in the middle of a contact under torsion (a cone).
+    /// Adapts the stencil to a level that may have a kink in the middle of the zone, as the shortfall of the
+    /// shear under torsion has (a cone).
     pub(crate) const fn up_to_middle(self) -> Self {
         Self {
             before_middle: true,
@@ -88,7 +88,7 @@ impl Stencil {
         }
     }
 
-    /// Adapts to a zone whose border lies beyond its outermost cells.
+    /// Adapts the stencil to a zone whose border lies beyond its outermost cells.
     #[must_use]
     pub const fn for_inner_zone(self) -> Self {
         Self {
@@ -97,8 +97,8 @@ impl Stencil {
         }
     }
 
-    /// Chooses the levels of a line that are used, the number of skipped ones, and the cell whose
-    /// gradient gives the normal of the border.
+    /// Chooses the levels of a line (of a zone `half` cells deep) that are used. Returns these, how many of the
+    /// outermost are skipped, and the cell whose gradient gives the normal of the border.
     fn choose(self, levels: &[f64], half: usize) -> (&[f64], usize, usize) {
         let levels = &levels[..levels.len().min(self.max_cells)];
         if !self.before_middle {
@@ -175,7 +175,8 @@ impl Line {
         self.cells[0]
     }
 
-    /// Whether a parabola has its border near the outermost cell and grows inwards.
+    /// Whether a parabola has its border within [`MAX_DISTANCE`] of the outermost cell's edge and grows
+    /// inwards.
     fn fits(&self, parabola: Parabola) -> bool {
         let at = parabola.outermost;
         (0.5 - parabola.distance_inside()).abs() <= MAX_DISTANCE
@@ -193,8 +194,8 @@ impl Line {
         &self.cells[..self.count]
     }
 
-    /// The first law whose level is straight ([`STRAIGHT`]) over the first `checked` cells of the
-    /// line, or the straightest one; and its levels.
+    /// The power whose level is straight ([`STRAIGHT`]) over the first `checked` cells of the line: the first
+    /// such one, or else the straightest. Returns its index and the levels of all cells.
     fn straightest<const K: usize>(
         &self,
         powers: &[Power; K],
@@ -206,7 +207,7 @@ impl Line {
             *value_k = value(m);
         }
         let levels = |law: usize| values.map(|value| powers[law].level_of(value));
-        let curvature = |levels: &[f64; MAX_CELLS]| bend(&levels[1..checked]);
+        let curvature = |levels: &[f64; MAX_CELLS]| relative_curvature(&levels[1..checked]);
         let (mut law, mut levels_of_law) = (0, levels(0));
         for candidate in 1..K {
             let bend_so_far = curvature(&levels_of_law);
@@ -337,8 +338,9 @@ impl Lattice {
     }
 }
 
-/// Sum of the second differences of a level along a line over its rise.
-fn bend(levels: &[f64]) -> f64 {
+/// Measure of the curvature of a level along a line: the sum of the second differences of its first four
+/// values, over their rise.
+fn relative_curvature(levels: &[f64]) -> f64 {
     let first_levels = &levels[..levels.len().min(4)];
     let bends = first_levels
         .windows(3)

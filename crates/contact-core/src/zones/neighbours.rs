@@ -16,6 +16,7 @@ pub(super) fn cut_window<T: Clone>(
 pub(super) struct Neighbourhood([[f64; 3]; 3]);
 
 impl Neighbourhood {
+    /// The values of a cell and of its eight neighbours; at the border of the field the nearest ones.
     pub(super) fn new(field: &Array2<f64>, (i, j): (usize, usize)) -> Self {
         let (nx, ny) = field.dim();
         let with_neighbours =
@@ -45,7 +46,8 @@ pub(super) fn fill_from_neighbours(known: &Array2<Option<f64>>) -> Array2<Option
     })
 }
 
-/// Chessboard distances from the given cells, by two sweeps.
+/// Distance of each cell from the nearest of the cells `from`, in steps along, across or diagonally, by two
+/// sweeps.
 pub(super) fn chessboard_distances<'a>(
     shape: (usize, usize),
     from: impl Iterator<Item = &'a (usize, usize)>,

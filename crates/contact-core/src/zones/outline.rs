@@ -198,6 +198,7 @@ impl Outline {
         principal_azimuth(self.shear)
     }
 
+    /// A point \[m\] in columns and rows of cells from the first.
     fn to_cells(&self, (x, y): (f64, f64)) -> (f64, f64) {
         let Grid { nx, ny, dx, dy, .. } = self.grid;
         (
@@ -206,6 +207,7 @@ impl Outline {
         )
     }
 
+    /// A point in columns and rows of cells, in metres from the middle of the grid.
     fn to_metres(&self, [column, row]: [f64; 2]) -> (f64, f64) {
         let Grid { nx, ny, dx, dy, .. } = self.grid;
         (

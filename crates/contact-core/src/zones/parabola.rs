@@ -82,6 +82,7 @@ impl Parabola {
         cubic.abs() <= MOVED * (b - a)
     }
 
+    /// The level s cells from the origin of the parabola.
     pub(crate) fn evaluate(self, s: f64) -> f64 {
         let [c_0, c_1, c_2] = self.c;
         c_0 + s * (c_1 + s * c_2)
@@ -103,11 +104,12 @@ impl Parabola {
         self.evaluate(self.outermost) / self.slope(self.outermost)
     }
 
-    /// Half of the second derivative.
+    /// Half of the second derivative of the level by cells.
     pub(crate) fn bend(self) -> f64 {
         self.c[2]
     }
 
+    /// Derivative of the level by cells, s cells from the origin.
     pub(crate) fn slope(self, s: f64) -> f64 {
         let [_, c_1, c_2] = self.c;
         c_1 + 2.0 * c_2 * s

@@ -23,7 +23,7 @@ pub(super) struct SampledBorder {
 }
 
 impl SampledBorder {
-    /// p^2 \[Pa^2\].
+    /// The border of the contact, with the level p^2 \[Pa^2\].
     pub(super) fn of_contact(grid: &Grid, p: &Array2<f64>) -> Self {
         let contact: Vec<bool> = p.iter().map(|&p| p > 0.0).collect();
         let level = p.mapv(|p| p.max(0.0).powi(2));
@@ -98,6 +98,7 @@ struct Planes<'a> {
 }
 
 impl<'a> Planes<'a> {
+    /// The planes of the extrapolated levels, where they agree with the cells' own levels.
     fn new(own: &'a Array2<f64>, edges: &'a [(usize, Edge)]) -> Self {
         let mut planes_without_check = Self {
             own,
@@ -119,6 +120,7 @@ impl<'a> Planes<'a> {
         planes_without_check
     }
 
+    /// Column and row of a cell.
     fn cell_of(&self, n: usize) -> (usize, usize) {
         let rows = self.own.ncols();
         (n / rows, n % rows)
@@ -136,7 +138,7 @@ impl<'a> Planes<'a> {
         self.edges.binary_search_by_key(&n, |(n, _)| *n).ok()
     }
 
-    /// Whether a plane agrees with the own level of a cell.
+    /// Whether the level of a plane in a cell agrees with the level that the cell has itself.
     fn agrees_with_own(&self, cell: (usize, usize), plane: Plane) -> bool {
         agree(plane.middle, plane.slope, self.own[cell])
     }

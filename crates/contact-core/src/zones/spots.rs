@@ -193,6 +193,7 @@ impl Sums {
         }
     }
 
+    /// Adds the sums over another part of the spot.
     fn add(&mut self, addend: &Self) {
         self.cells += addend.cells;
         self.faces += addend.faces;
@@ -201,7 +202,8 @@ impl Sums {
         (self.second.iter_mut().zip(addend.second)).for_each(|(sum, part)| *sum += part);
     }
 
-    /// Adds the mirror image: one spot where both touch, or two.
+    /// Yields the sums over the whole spot, given its half on the kept side: one spot with its image if it
+    /// touches the mirror, otherwise two.
     fn add_image(self, mirrored: bool) -> impl Iterator<Item = Self> {
         let whole = Self {
             cells: 2.0 * self.cells,

@@ -72,7 +72,7 @@ pub(super) struct Areas {
     pub(super) at_limit: Vec<bool>,
 }
 
-/// The status and the areas at the end of a solved increment.
+/// The status of the interface, and contact and stick area at the end of a solved increment.
 pub(super) fn areas(
     setup: &Setup<'_>,
     no_slip: &NoSlipTerms,
@@ -127,7 +127,8 @@ pub(super) fn areas(
     }
 }
 
-/// Whether bodies slide whose cells all slip: under given forces only at the limit of friction.
+/// Whether bodies whose cells all slip slide as a whole: under given forces only at the limit of friction, else
+/// since a motion in the plane is given.
 fn slides(setup: &Setup<'_>, info: &AlternationInfo) -> bool {
     let motions = setup.point.loads.given;
     let turns = motions
@@ -136,8 +137,8 @@ fn slides(setup: &Setup<'_>, info: &AlternationInfo) -> bool {
     info.uses_all_friction() || motions.delta_x.is_some() || motions.delta_y.is_some() || turns
 }
 
-/// The cells `marked` as slipping that are at the limit of friction (see above), given the slip of
-/// a cell \[m\].
+/// The cells `marked` as slipping that hardly move, so that they are at the limit of friction (see above), and
+/// lie beside others of this kind. `slip` is the slip of a cell \[m\].
 fn at_limit(
     setup: &Setup<'_>,
     lattice: Lattice,
@@ -180,7 +181,7 @@ struct Cells<'a> {
 }
 
 impl<'a> Cells<'a> {
-    /// Computes areas from the slip of each cell in the increment \[m\].
+    /// Prepares the areas of a solved increment; `slip` is the slip of a cell in it \[m\].
     fn new(
         setup: &'a Setup<'_>,
         now: &'a Interface,
@@ -228,7 +229,7 @@ impl<'a> Cells<'a> {
         }
     }
 
-    /// The area of a zone whose border crosses the cells `edges`.
+    /// The area of a zone \[m^2\]: whole cells inside, and parts of the cells `edges` that its border crosses.
     fn area(&self, zone: &[bool], edges: &[(usize, Edge)]) -> f64 {
         let whole = zone.iter().filter(|&&inside| inside).count() as f64;
         let partial =
@@ -253,7 +254,7 @@ impl<'a> Cells<'a> {
         area - EDGE * edges.iter().map(faces).sum::<usize>() as f64
     }
 
-    /// State of the interface, from the cells that slip.
+    /// State of the interface (no contact, stick, partial slip, gross slip), from the cells that slip.
     fn status(&self, setup: &Setup<'_>, info: &AlternationInfo) -> Status {
         if !self.contact.contains(&true) {
             Status::NoContact
@@ -267,9 +268,8 @@ impl<'a> Cells<'a> {
         }
     }
 
-    /// The area of a stick zone in partial slip, by its border within the cells. A border beyond the
-    /// contact contradicts the cells that slip, and a zone without area those that stick: there
-    /// whole cells count.
+    /// The area of a stick zone in partial slip \[m^2\]. `area`, by its border within the cells, is used if it
+    /// lies between 0 and the area of the `contact`; otherwise the cells that stick are counted.
     fn clamp_stick_area(&self, contact: f64, area: f64) -> f64 {
         if self.stick.contains(&true) && area > 0.0 && area < contact {
             return area;
@@ -278,7 +278,8 @@ impl<'a> Cells<'a> {
         contact * count(&self.stick) / count(&self.contact)
     }
 
-    /// The rim of the contact.
+    /// The rim of the contact: cells that its border crosses, each with the border within it, extrapolated from
+    /// the pressure inside. Cells where that contradicts their own pressure have no level.
     fn rim(&self) -> Vec<(usize, Edge)> {
         let (now, scene) = (self.now, &self.setup.problem.scene);
         let beta = dundurs_beta(
@@ -319,8 +320,8 @@ impl<'a> Cells<'a> {
         rim
     }
 
-    /// The border of the stick zone, within the `rim`, given the slip of a cell in the increment
-    /// \[m\].
+    /// The border of the stick zone, within the `rim` of the contact; `slip` is the slip of a cell in the
+    /// increment \[m\].
     fn stick_border(
         &self,
         rim: &[(usize, Edge)],
@@ -364,7 +365,7 @@ impl<'a> Cells<'a> {
         border
     }
 
-    /// The cell that slips at the end of a line.
+    /// The slipping cell at the border end of a line: the cell outside it, or else its outermost one.
     fn slipping_beside(&self, line: &Line) -> usize {
         if self.slips[line.outside] {
             line.outside
@@ -380,8 +381,8 @@ impl<'a> Cells<'a> {
         friction_bound(self.setup.mu[n], at.p[n]) - (at.q[0][n] * x + at.q[1][n] * y)
     }
 
-    /// Whether the stick zone has grown at a cell in it: the cell has come to stick, other than by
-    /// a reversal, or its shortfall has increased.
+    /// Whether the stick zone has grown at the cell `stuck` inside it: the cell has come to stick, other than
+    /// by a reversal, or its shortfall has increased.
     fn grew(&self, stuck: usize, slipping: usize) -> bool {
         let before = self.setup.last();
         let short = |at| self.shortfall(at, stuck, slipping);

@@ -103,12 +103,13 @@ fn work_of_loads(setup: &Setup<'_>, point: &LoadPoint, motion: &Motion) -> f64 {
         .sum()
 }
 
+/// The mean of two numbers, for the trapezoidal rule.
 fn mean(a: f64, b: f64) -> f64 {
     0.5 * (a + b)
 }
 
-/// The slip of cell n in the increment, from where its material started or entered the contact, and
-/// how far it moved before it entered \[m\]; with the rigid motion there.
+/// The slip of cell n in the increment, from where its material started or entered the contact, and its motion
+/// before it entered \[m\]. `rigid` is the rigid motion at the cell.
 pub(super) fn slip_of(
     no_slip: &NoSlipTerms,
     now: &Interface,

@@ -41,7 +41,8 @@ pub(in crate::march) struct Closing<'a> {
     pub(in crate::march) hardness: f64,
 }
 
-/// Makes the increment the present state.
+/// Ends the increment: its solution `now` becomes the present state, with energies, slip and history of the
+/// cells added up.
 pub(in crate::march) fn close(
     state: &mut State,
     increment: &Increment,
@@ -76,7 +77,8 @@ pub(in crate::march) fn close(
     state.increments += 1;
 }
 
-/// Increment of the history that friction depends on, in each cell \[m, J/m^2\].
+/// Increase of the history that friction depends on, in each cell: slip \[m\] or dissipated energy \[J/m^2\],
+/// by `of`; zero in cells that stick.
 pub(in crate::march) fn growth(
     setup: &Setup<'_>,
     no_slip: &NoSlipTerms,
@@ -101,7 +103,7 @@ pub(in crate::march) fn growth(
     (0..now.p.len()).map(grows).collect()
 }
 
-/// The field of the history that friction depends on.
+/// The field of the state that holds the history that friction depends on; none if it is no field.
 fn of_history(state: &State, history: Option<History>) -> Option<&[f64]> {
     match history? {
         History::Increment | History::Cycles => None,

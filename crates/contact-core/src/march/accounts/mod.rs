@@ -18,7 +18,8 @@ use crate::solvers::Interface;
 use crate::solvers::intermediate::AlternationInfo;
 use crate::solvers::no_slip::NoSlipTerms;
 
-/// The results of a solved increment, and the cells that did not slip in it.
+/// The results of a solved increment (areas, energies, residuals, loads), and the cells that did not slip in
+/// it.
 pub(super) fn draw_up(
     setup: &Setup<'_>,
     no_slip: &NoSlipTerms,

@@ -28,8 +28,9 @@ const LINE: usize = SIXTH.len() + 2;
 /// scatters by up to five times the error of chosen ones.
 pub(in crate::march) const SAMPLES: f64 = 32.0;
 
-/// Scatter of the shear, root mean square over a contact with so many cells across its radius
-/// \[Pa\]; `None` where nowhere enough samples in a line stick.
+/// Scatter of the shear from cell to cell \[Pa\], root mean square over the contact. Samples are farther apart
+/// where it has many cells across its radius (`cells_per_radius`). `None` where no line has enough sticking
+/// samples in a row.
 pub(super) fn scatter(
     geometry: &Geometry,
     mirror: Mirror,
@@ -60,7 +61,8 @@ pub(super) fn scatter(
     Some((square * sticking as f64 / cells.count() as f64).sqrt())
 }
 
-/// Mean of s^2 over lines of cells, with samples so many cells apart.
+/// Mean square of the scatter over lines of cells, from the sixth differences of samples `stride` cells apart;
+/// none if no line has enough samples.
 fn mean(lines: impl Iterator<Item = Vec<Option<[f64; 2]>>>, stride: usize) -> Option<f64> {
     let (mut sum, mut count) = (0.0, 0.0);
     for line in lines {

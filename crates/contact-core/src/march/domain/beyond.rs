@@ -12,10 +12,9 @@ use crate::solvers::Interface;
 use crate::solvers::intermediate::AlternationInfo;
 
 impl Domain {
-    /// Lower bound of the gap beyond the window in this solution \[m\]; `None` if cells overlap
-    /// there. The bound of an earlier increment, less the largest closing since
-    /// ([`Self::closes_beyond`]), is used as long as it is positive; then the gap is computed anew.
-    /// Fails if the run is stopped.
+    /// Lower bound of the gap beyond the window in this solution \[m\]; `None` if cells overlap there. While
+    /// the bound of an earlier increment, less the largest closing since ([`Self::closes_beyond`]), is
+    /// positive, it is used. Otherwise the gap is computed. Fails if the run is stopped.
     pub(in crate::march) fn clear_beyond(
         &self,
         problem: &Problem,

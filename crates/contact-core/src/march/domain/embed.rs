@@ -4,8 +4,8 @@ use crate::march::State;
 use crate::plan::Mirror;
 use crate::solvers::Interface;
 
-/// A field of kept cells in a wider window with the same centre, `elsewhere` in the new cells; or
-/// cut to a narrower one. Shapes are cells along x and kept rows.
+/// A field of kept cells (`from` along x and y) in a window of other shape (`to`) with the same centre. New
+/// cells get `elsewhere`; a narrower window cuts the field.
 pub(super) fn embedded<T: Copy>(
     field: &[T],
     from: (usize, usize),

@@ -20,9 +20,9 @@ const UNEVEN: usize = 6;
 const WINDOW_GROWTH: f64 = 1.08;
 
 impl Domain {
-    /// Moves the state into a window wide enough for the contact expected in the increment to
-    /// `point`. Returns the state in the former window if that was another. Fails, without a
-    /// change, if the run is stopped.
+    /// Moves the state into a window wide enough for the contact expected in the increment to `point`. Returns
+    /// the state in the former window if the window has changed. Fails, without a change, if the run is
+    /// stopped.
     pub(in crate::march) fn fit(
         &mut self,
         problem: &Problem,
@@ -70,9 +70,9 @@ impl Domain {
         Ok(None)
     }
 
-    /// The shape of a narrower window once the contact no longer grows: W grew in the last
-    /// increment, will not grow on the rest of the path, and no cell outside the narrower window
-    /// has been in contact.
+    /// The shape of a narrower window, once the contact no longer grows: W grew in the last increment, will not
+    /// grow on the rest of the path, and no cell outside the narrower window has been in contact. None while
+    /// one of these does not hold.
     fn without_growth(
         &self,
         problem: &Problem,
@@ -161,7 +161,8 @@ impl Domain {
         Ok(self.embed(problem, state))
     }
 
-    /// Moves a state into the window and computes the displacements of its new cells.
+    /// Moves a state into the present window and computes the displacements of its new cells. Returns the state
+    /// in its former window if that was another.
     fn embed(&mut self, problem: &Problem, state: &mut State) -> Option<State> {
         if state.window == self.shape() {
             return None;

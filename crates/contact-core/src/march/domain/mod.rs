@@ -130,7 +130,7 @@ impl Domain {
         self.replaced + self.window.op.work() + whole
     }
 
-    /// Sets the work allowed from now on.
+    /// Allows so many more convolutions from now on.
     pub(super) fn allow(&mut self, more: Convolutions) {
         self.limit = self.work() + more;
     }
@@ -140,13 +140,13 @@ impl Domain {
         self.work() >= self.limit
     }
 
-    /// The work of the window's operator at which what is allowed is used up.
+    /// The total work of the window's operator at which the allowed work is used up.
     pub(super) fn most_work(&self) -> Convolutions {
         self.limit
             .remaining_after(self.work() - self.window.op.work())
     }
 
-    /// A window of that shape; fails where the run is stopped meanwhile.
+    /// Lays out a window of that shape. If this is stopped, the error has the number of `increments` done.
     pub(super) fn laid_out(
         &self,
         problem: &Problem,
@@ -239,6 +239,7 @@ impl Kernels {
 }
 
 impl Geometry {
+    /// Lays out geometry, gap and friction map on the nx x ny cells in the middle of the scene's grid.
     fn new(scene: &Scene, mirror: Mirror, (nx, ny): (usize, usize)) -> Self {
         let grid = Grid {
             nx,
@@ -273,8 +274,8 @@ impl Geometry {
         }
     }
 
-    /// The approach at which the undeformed surfaces just touch anywhere on the grid of the scene,
-    /// tilted by the motion across the plane \[m\].
+    /// The approach \[m\] at which the undeformed surfaces just touch anywhere on the grid of the scene. Of the
+    /// motion (approach and tilts, as lengths) the tilts count.
     pub(super) fn touching(&self, scene: &Scene, [_, of_x, of_y]: [f64; 3]) -> f64 {
         let least = |least: f64, h: f64| least.min(h);
         if self.grid == scene.grid {
@@ -291,7 +292,7 @@ impl Geometry {
             .fold(f64::INFINITY, least)
     }
 
-    /// Adds the permanent indentation of a state to the gap.
+    /// Sets the gap to the bare gap plus the permanent indentation of a state.
     pub(super) fn indent(&mut self, indented: &[f64]) {
         if self.bare.is_empty() {
             return;

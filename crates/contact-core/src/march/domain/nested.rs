@@ -124,7 +124,8 @@ fn solve_level(
     }))
 }
 
-/// Solves the normal problem on the cells of a window, from a guess.
+/// Solves the normal problem on the cells of a window with the gap `h` and the coefficients `kernel`, from a
+/// guess of the pressure; returns the pressure \[Pa\].
 fn solve_window(
     problem: &Problem,
     point: &LoadPoint,

@@ -23,8 +23,8 @@ pub(super) fn shape_of(grid: &Grid) -> (usize, usize) {
     (grid.nx, grid.ny)
 }
 
-/// The shape of a window for so many cells along x and y: the largest whose transforms take no
-/// longer.
+/// The shape of a window for so many cells along x and y: the largest window whose transforms take no longer
+/// than for the smallest possible one.
 pub(super) fn shape_for(grid: &Grid, cells: [usize; 2]) -> (usize, usize) {
     let along = |whole: usize, cells: usize| {
         // A window of an odd grid is odd, too, so that it has the same middle.

@@ -8,7 +8,7 @@ use crate::march::setup::{Equations, Setup};
 const KEPT_SHARE: f64 = 0.5;
 const ENTERED_SHARE: f64 = 0.25;
 
-/// All cells, none of which enters the contact.
+/// The equations of all cells, as if none entered the contact in the increment.
 pub(super) fn whole<'a>(setup: &'a Setup<'_>) -> Equations<'a> {
     Equations {
         h_init: &setup.geometry.h_init,
@@ -18,7 +18,7 @@ pub(super) fn whole<'a>(setup: &'a Setup<'_>) -> Equations<'a> {
     }
 }
 
-/// The old contact alone: the gap `apart` keeps all other cells open \[m\].
+/// The equations of the old contact alone: all other cells are kept open by the gap `apart` \[m\].
 pub(super) fn kept(apart: &[f64]) -> Equations<'_> {
     Equations {
         h_init: apart,
@@ -28,7 +28,7 @@ pub(super) fn kept(apart: &[f64]) -> Equations<'_> {
     }
 }
 
-/// All cells; those outside the last contact with their motion before entry \[m\].
+/// The equations of all cells, where cells outside the last contact start with their motion before entry \[m\].
 pub(super) fn entered<'a>(setup: &'a Setup<'_>, motion: &'a [Vec<f64>; 2]) -> Equations<'a> {
     Equations {
         h_init: &setup.geometry.h_init,

@@ -74,10 +74,12 @@ pub(super) fn solve_first_contact(
     }
 }
 
+/// a . b
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|k| a[k] * b[k]).sum()
 }
 
+/// Length of a vector.
 fn size(a: [f64; 3]) -> f64 {
     dot(a, a).sqrt()
 }

@@ -25,7 +25,8 @@ pub(super) struct KeptContact {
 }
 
 impl KeptContact {
-    /// Keeps a solution on the old contact.
+    /// Keeps what entry needs of a solution in which the contact is kept to the old cells: gaps, closing and
+    /// motion of the cells outside.
     pub(super) fn new(setup: &Setup<'_>, kept: &Interface, info: &AlternationInfo) -> Self {
         let (geometry, mirror) = (setup.geometry, setup.problem.plan.mirror);
         let (last, arms) = (setup.last(), &geometry.arms);

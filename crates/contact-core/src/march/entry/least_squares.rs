@@ -12,6 +12,7 @@ pub(in crate::march) struct LeastSquares<const N: usize, const V: usize> {
 }
 
 impl<const N: usize, const V: usize> LeastSquares<N, V> {
+    /// Sums without any place.
     pub(in crate::march) fn new() -> Self {
         Self {
             gram: [[0.0; N]; N],
@@ -19,7 +20,7 @@ impl<const N: usize, const V: usize> LeastSquares<N, V> {
         }
     }
 
-    /// Adds a place with the terms and the values there.
+    /// Adds a place: its weight, the N terms there, and the V values that the fits should have.
     pub(in crate::march) fn add(&mut self, weight: f64, terms: [f64; N], values: [f64; V]) {
         for (row, term) in self.gram.iter_mut().zip(terms) {
             let weighted = weight * term;
@@ -35,7 +36,7 @@ impl<const N: usize, const V: usize> LeastSquares<N, V> {
         }
     }
 
-    /// The coefficients of the terms, for each right-hand side.
+    /// Solves for the coefficients of the terms, for each of the V values.
     pub(in crate::march) fn factors(&self) -> [[f64; N]; V] {
         let mut ridged = self.gram;
         for (k, row) in ridged.iter_mut().enumerate().skip(1) {
@@ -45,7 +46,7 @@ impl<const N: usize, const V: usize> LeastSquares<N, V> {
         self.right.map(|right| product(&inverse, right))
     }
 
-    /// Sum over the places of the terms with these coefficients times a right-hand side.
+    /// Sum over all places of the fitted value times the value of number `kind`.
     pub(in crate::march) fn fitted(&self, factors: &[f64; N], kind: usize) -> f64 {
         let terms = factors.iter().zip(self.right[kind]);
         terms.map(|(factor, right)| factor * right).sum()

@@ -46,7 +46,7 @@ pub(super) fn solve(
     Ok((now, found))
 }
 
-/// Solves on the old contact: all other cells have a large gap.
+/// Solves the increment with the contact kept to the old cells: all others get a gap too large to close.
 fn solve_kept(
     setup: &Setup<'_>,
     solver: &mut Solver<'_>,

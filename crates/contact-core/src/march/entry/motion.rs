@@ -55,8 +55,9 @@ impl KeptContact {
         [moved(0), moved(1)]
     }
 
-    /// M of cell n from its neighbours m that enter before it: M_m plus the mean of both m/c times
-    /// the difference of the gaps, averaged with the squared slope of the gap as weight.
+    /// The motion before entry of cell n that is far from the old contact, from its neighbours that enter
+    /// before it (`known`): the motion of a neighbour, plus the mean of both m/c times the difference of the
+    /// gaps, averaged with the squared slope of the gap as weight.
     fn moved_farther_off(&self, n: usize, known: &[Option<[f64; 2]>]) -> [f64; 2] {
         let ratio = |n: usize| [0, 1].map(|c| self.motion[c][n] / self.closing[n]);
         let (own, gap) = (ratio(n), self.gap[n]);
@@ -81,7 +82,8 @@ impl KeptContact {
         }
     }
 
-    /// The [`View`] of the contact from the entering cells and the cells outside around them.
+    /// The [`View`] of the contact from the entering cells and from the cells outside around them; none
+    /// elsewhere.
     fn views(
         &self,
         entering: &[usize],

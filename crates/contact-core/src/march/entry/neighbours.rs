@@ -31,10 +31,12 @@ struct Way {
 }
 
 impl Way {
+    /// Squared distance in cells.
     fn square(&self) -> isize {
         self.columns * self.columns + self.rows * self.rows
     }
 
+    /// Whether the offset lies within `reach` + 1/2 cells.
     fn is_within(&self, reach: isize) -> bool {
         self.square() <= reach * reach + reach
     }
@@ -59,7 +61,7 @@ pub(super) struct Neighbour {
 }
 
 impl Neighbour {
-    /// Returns the pair seen from the other cell.
+    /// The pair seen from the other cell: offset and direction reversed.
     pub(super) fn back(&self) -> Self {
         let back = |[x, y]: [f64; 2]| [-x, -y * self.sign];
         Self {
@@ -74,14 +76,15 @@ impl Neighbour {
         length(self.off)
     }
 
-    /// A weight that falls from 1 to 0 at the radius.
+    /// A weight that falls from 1 at the cell itself to 0 at the radius `reach` + 1/2.
     pub(super) fn nearness(&self, reach: isize) -> f64 {
         1.0 - self.square as f64 / (reach as f64 + 0.5).powi(2)
     }
 }
 
 impl Neighbours {
-    /// The neighbours within `reach` + 1/2 cells on a grid, with C_zz = `kernel` \[m/Pa\].
+    /// Prepares the neighbours within `reach` + 1/2 cells on a grid, with the normal response C_zz = `kernel`
+    /// \[m/Pa\].
     pub(super) fn new(grid: &Grid, mirror: Mirror, reach: isize, kernel: &Quadrant) -> Self {
         let unit = if grid.plane_strain {
             grid.dx
@@ -123,7 +126,7 @@ impl Neighbours {
         }
     }
 
-    /// Cell n and its neighbours within `reach` + 1/2 cells.
+    /// Yields cell n itself and its neighbours within `reach` + 1/2 cells, nearest first.
     pub(super) fn neighbours_within(
         &self,
         n: usize,

@@ -52,7 +52,7 @@ struct MotionRatio {
 }
 
 impl MotionRatio {
-    /// m/c
+    /// m/c, motion over closing of a cell, by the fit, with the cell's view of the contact.
     fn ratio(&self, view: &View) -> [f64; 2] {
         let (s, e) = (view.root(), view.toward());
         std::array::from_fn(|n| {
@@ -88,12 +88,14 @@ enum Stage {
 }
 
 impl Entering {
-    /// The part of the increment at which it enters at its present rate.
-    fn entry(&self) -> f64 {
+    /// The time, as a part of the increment, at which the cell enters if it goes on closing at its present
+    /// rate.
+    fn entry_time(&self) -> f64 {
         self.time + (self.gap / self.closing).max(0.0)
     }
 
-    fn go_on_until(&mut self, time: f64) {
+    /// Advances gap and motion at the present rates to a time, a part of the increment.
+    fn advance_to(&mut self, time: f64) {
         let passed = time - self.time;
         self.gap -= passed * self.closing;
         for (moved, rate) in self.moved.iter_mut().zip(self.motion) {
@@ -102,16 +104,17 @@ impl Entering {
         self.time = time;
     }
 
-    /// Adds a contact cell to the view and reduces the closing rate by `held_back` \[m\].
-    fn sees(&mut self, near: &Neighbour, held_back: f64) {
+    /// Adds a cell that has come into contact to the view, reduces the closing rate by `held_back` \[m\], and
+    /// updates the rate of motion.
+    fn add_contact_cell(&mut self, near: &Neighbour, held_back: f64) {
         self.view.add(near);
         self.closing = (self.closing - held_back).max(self.slowest);
         self.motion = self.law.ratio(&self.view).map(|ratio| ratio * self.closing);
     }
 }
 
-/// The motion before entry of the entering `cells` \[m\]; `views` of the contact from the cells
-/// that the fits use.
+/// The motion before entry \[m\] of the entering `cells`, one by one in the order of their entry. `views` has
+/// the contact as seen from all cells that the fits use.
 pub(super) fn moved(
     contact: &KeptContact,
     views: &[Option<View>],
@@ -122,7 +125,7 @@ pub(super) fn moved(
         Entering {
             cell,
             view,
-            law: law(contact, views, cell, &view),
+            law: fit_motion_ratio(contact, views, cell, &view),
             closing: contact.closing[cell],
             slowest: SLOWEST * contact.closing[cell],
             motion: [0, 1].map(|c| contact.motion[c][cell]),
@@ -141,7 +144,7 @@ pub(super) fn moved(
     let mut queue = Queue::new(&entering);
     let (mut together, mut held_back) = (Vec::new(), Vec::new());
     while let Some(next) = queue.next(&entering, f64::INFINITY) {
-        let time = entering[next].entry();
+        let time = entering[next].entry_time();
         together.clear();
         together.push(next);
         while let Some(twin) = queue.next(&entering, time + AT_ONCE) {
@@ -149,7 +152,7 @@ pub(super) fn moved(
         }
         for &k in &together {
             let cell = &mut entering[k];
-            cell.go_on_until(cell.entry());
+            cell.advance_to(cell.entry_time());
             cell.stage = Stage::Enters;
         }
         hold_back(contact, &entering, &places, &together, &mut held_back);
@@ -157,9 +160,9 @@ pub(super) fn moved(
             entering[k].stage = Stage::Inside;
         }
         for (k, near, by) in held_back.drain(..) {
-            entering[k].go_on_until(time);
-            entering[k].sees(&near, by);
-            queue.put(k, entering[k].entry());
+            entering[k].advance_to(time);
+            entering[k].add_contact_cell(&near, by);
+            queue.put(k, entering[k].entry_time());
         }
     }
     entering.iter().map(|cell| cell.moved).collect()
@@ -174,13 +177,14 @@ struct Queue {
 }
 
 impl Queue {
+    /// Queues all entering cells for their present times of entry.
     fn new(entering: &[Entering]) -> Self {
         let mut queue = Self {
             cells: BinaryHeap::with_capacity(entering.len()),
             due: vec![u64::MAX; entering.len()],
         };
         for (k, cell) in entering.iter().enumerate() {
-            queue.put(k, cell.entry());
+            queue.put(k, cell.entry_time());
         }
         queue
     }
@@ -204,7 +208,7 @@ impl Queue {
                 continue;
             }
             // Entries since it was queued may have reduced its rate.
-            let entry = entering[k].entry();
+            let entry = entering[k].entry_time();
             self.due[k] = 0;
             if entry.to_bits() <= due {
                 return Some(k);
@@ -216,8 +220,9 @@ impl Queue {
     }
 }
 
-/// The reductions of the closing rates around cells that enter `together`. The pressures on these
-/// are taken proportional to their closing rates, and so large that the rates vanish.
+/// Appends to `held_back` the reductions of the closing rates of cells around those that enter `together`, with
+/// their numbers in `entering`. The pressures of the new cells are taken proportional to their closing rates,
+/// and so large that these vanish.
 fn hold_back(
     contact: &KeptContact,
     entering: &[Entering],
@@ -228,7 +233,7 @@ fn hold_back(
     for &k in together {
         let cell = &entering[k];
         let root = cell.view.root();
-        let self_response = contact.screened.own(root);
+        let self_response = contact.screened.self_response(root);
         let (first, mut with) = (held_back.len(), 0.0);
         for near in contact.cells.neighbours_within(cell.cell, REACH) {
             let Some(k) = places[near.cell].filter(|&k| entering[k].stage != Stage::Inside) else {
@@ -255,8 +260,13 @@ fn hold_back(
     }
 }
 
-/// The fit of m/c at a cell, by least squares over the cells around, weighted by nearness.
-fn law(contact: &KeptContact, views: &[Option<View>], n: usize, view: &View) -> MotionRatio {
+/// Fits m/c at cell n to the cells around it by least squares, weighted by nearness.
+fn fit_motion_ratio(
+    contact: &KeptContact,
+    views: &[Option<View>],
+    n: usize,
+    view: &View,
+) -> MotionRatio {
     let unit = contact.closing[n];
     let [e_x, e_y] = view.toward();
     let along = [-e_y, e_x];

@@ -33,7 +33,7 @@ pub(super) struct Screened {
 }
 
 impl Screened {
-    /// For the kernel C_zz on a grid \[m/Pa\].
+    /// Prepares the screened responses for the kernel C_zz on a grid \[m/Pa\].
     pub(super) fn new(grid: &Grid, kernel: &Quadrant) -> Self {
         let ratio = (grid.dx / grid.dy).sqrt();
         let potential = 2.0 * (ratio * ratio.powi(-2).asinh() + ratio.powi(2).asinh() / ratio);
@@ -48,8 +48,9 @@ impl Screened {
         }
     }
 
-    /// S_nn/C_nn of a cell with d^(1/2) = `root`.
-    pub(super) fn own(&self, root: f64) -> f64 {
+    /// S_nn/C_nn: how much less a cell yields since the contact beside it is held, `root` being d^(1/2) of the
+    /// cell.
+    pub(super) fn self_response(&self, root: f64) -> f64 {
         let d = (root * root).max(NEAREST);
         let image = if self.along.is_empty() {
             self.own / d
@@ -59,7 +60,7 @@ impl Screened {
         (1.0 - image).max(LEAST)
     }
 
-    /// S_mn/C_nn of two cells with these d^(1/2).
+    /// S_mn/C_nn of two neighbouring cells beside the held contact, `roots` being their d^(1/2).
     pub(super) fn screened_response(&self, near: &Neighbour, roots: [f64; 2]) -> f64 {
         let [m, n] = roots.map(|root| root.max(NEAREST.sqrt()));
         if self.along.is_empty() {
@@ -135,7 +136,7 @@ pub(super) mod tests {
             {
                 let Some(to) = root(near.cell) else { continue };
                 let response = if near.cell == n {
-                    screened.own(at)
+                    screened.self_response(at)
                 } else {
                     screened.screened_response(&near, [to, at])
                 };

@@ -34,7 +34,8 @@ pub(super) struct View {
 }
 
 impl View {
-    /// The view from cell n; none if no contact is near.
+    /// The contact as seen from cell n: sums of weights over the contact cells around. None if none is near
+    /// enough to count.
     pub(super) fn from_cell(
         n: usize,
         cells: &Neighbours,
@@ -53,7 +54,7 @@ impl View {
         (view.sum > (1.0 + ONSET) * beyond).then_some(view)
     }
 
-    /// Adds a contact cell.
+    /// Adds a contact cell to the sums of the view.
     pub(super) fn add(&mut self, near: &Neighbour) {
         self.sum += near.weight;
         for (toward, way) in self.toward.iter_mut().zip(near.direction) {
@@ -61,20 +62,21 @@ impl View {
         }
     }
 
-    /// d^(1/2), d the distance of the contact in lengths of a cell.
+    /// d^(1/2), d being the distance of the contact in lengths of a cell, from the sum of weights.
     pub(super) fn root(&self) -> f64 {
         let edge = if self.flat { FLAT_EDGE } else { EDGE };
         (edge / self.sum).powi(2)
     }
 
-    /// e; zero where the contact surrounds the cell evenly.
+    /// The unit vector e towards the contact; zero where the contact surrounds the cell evenly.
     pub(super) fn toward(&self) -> [f64; 2] {
         let size = length(self.toward).max(f64::MIN_POSITIVE);
         self.toward.map(|toward| toward / size)
     }
 }
 
-/// The S of the half-plane beyond the radius.
+/// The part of the sum of weights of a half-plane that lies beyond the radius of the view; `flat` in plane
+/// strain.
 fn half_plane_sum_beyond(flat: bool) -> f64 {
     let side = if flat { 1.0 } else { PI };
     side * 4.0 / (REACH as f64 + 0.5).powf(0.25)

@@ -90,7 +90,8 @@ fn is_independent(fault: &Fault) -> bool {
     }
 }
 
-/// Replaces the refused value; false if it cannot be replaced.
+/// Replaces the refused value by a valid one, so that reading goes on to the next fault; false if there is
+/// none.
 fn replace_refused_value(root: &mut Table, fault: &Fault) -> bool {
     let mut path = steps(&fault.key);
     // One of several numbers, or the number of a measure: all of them.
@@ -127,7 +128,7 @@ fn replace_refused_value(root: &mut Table, fault: &Fault) -> bool {
     removed
 }
 
-/// Returns a valid value for a key, by its name.
+/// A valid value for a faulty key, so that the next fault of the file is found; none for a section.
 fn replacement(path: &[&str]) -> Option<&'static str> {
     let name = path.last()?;
     if path.len() > 1 && SECTIONS.contains(name) {
@@ -137,7 +138,7 @@ fn replacement(path: &[&str]) -> Option<&'static str> {
     entry.map(|(_, value)| *value)
 }
 
-/// The table at the end of a path.
+/// The table at the end of a path of keys; none where the path leads elsewhere.
 fn table_at<'t>(root: &'t mut Table, path: &[&str]) -> Option<&'t mut Table> {
     let Some((first, steps_below)) = path.split_first() else {
         return Some(root);
@@ -153,7 +154,7 @@ fn table_at<'t>(root: &'t mut Table, path: &[&str]) -> Option<&'t mut Table> {
     node.as_table_mut()
 }
 
-/// Doubts about single values of the file, without the replaced ones.
+/// Warnings about single values of the scene, without those that were replaced (`mended`).
 fn doubts(scene: &Scene, mended: &[String]) -> Vec<String> {
     let is_original = |doubt: &String| {
         let key = doubt.split([' ', '=']).next().unwrap_or_default();

@@ -203,6 +203,8 @@ fn withdraw_old_material(
 /// Calls a function for the tables at a key, or of every element of the list before a star; for none
 /// where the key leads to no table.
 fn for_tables(table: &mut Table, path: &[&str], change: &mut impl FnMut(&mut Table)) {
+    /// Calls `change` for the tables below a value at the remaining steps of a key: for [`EVERY`] element of a
+    /// list, or for the one of an index.
     fn descend(value: &mut Value, path: &[&str], change: &mut impl FnMut(&mut Table)) {
         match (value, path) {
             (Value::Table(table), path) => for_tables(table, path, change),
@@ -253,7 +255,7 @@ fn set_every(root: &mut Table, path: &[&str], value: &Value) -> Result<(), Strin
     Ok(())
 }
 
-/// Sets the value at a key.
+/// Sets the value at a key, and makes the tables on the way to it.
 fn set_value(root: &mut Table, path: &[&str], value: Value) -> Result<(), String> {
     let (last, parents) = path.split_last().ok_or("the key is empty")?;
     let Some((first, parents)) = parents.split_first() else {
@@ -304,6 +306,7 @@ fn as_table(value: &mut Value) -> &mut Table {
     }
 }
 
+/// The element of a list that a step of a key names by its index; the error gives the number of elements.
 fn element<'t>(array: &'t mut [Value], step: &str, key: &str) -> Result<&'t mut Value, String> {
     let count = array.len();
     step.parse::<usize>()

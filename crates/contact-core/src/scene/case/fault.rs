@@ -21,7 +21,7 @@ pub struct Fault {
 }
 
 impl Fault {
-    /// A fault of the value at a key.
+    /// A fault of the value at `key`, with a message for the user.
     pub fn new(key: impl Into<String>, message: impl Into<String>) -> Self {
         Self {
             key: key.into(),
@@ -39,7 +39,7 @@ impl Fault {
         }
     }
 
-    /// A value that is not what it must be.
+    /// The fault of a value of the wrong kind or range: the message has the value and what is `allowed`.
     pub(crate) fn value(key: &str, value: &Value, allowed: &str) -> Self {
         let shown = match value {
             Value::Table(table) => {
@@ -54,6 +54,7 @@ impl Fault {
 }
 
 impl From<Error> for Fault {
+    /// The fault of the key that an error of a scene is about.
     fn from(error: Error) -> Self {
         let message = error.to_string();
         let key = match error {

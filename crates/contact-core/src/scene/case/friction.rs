@@ -18,7 +18,7 @@ const HISTORIES: [(&str, History); 4] = [
     ("cycles", History::Cycles),
 ];
 
-/// The friction law.
+/// Reads the section `[friction]`: coefficient, map, history, levels, user's law.
 pub(super) fn friction(root: &Section<'_>, files: &Files<'_>) -> Result<Friction, Fault> {
     let mut friction = Friction::coulomb(f64::INFINITY);
     let coefficients = friction.coefficients_mut().map(|(key, _)| key);
@@ -53,7 +53,7 @@ pub(super) fn friction(root: &Section<'_>, files: &Files<'_>) -> Result<Friction
     })
 }
 
-/// Reads the friction on a bed of debris.
+/// Reads how friction depends on the thickness of a bed of debris; none where it does not.
 fn bed_friction(friction: &Section<'_>) -> Result<Option<BedFriction>, Fault> {
     let Some(section) = friction.section("bed", &["mu", "thickness"])? else {
         return Ok(None);
@@ -64,7 +64,8 @@ fn bed_friction(friction: &Section<'_>) -> Result<Option<BedFriction>, Fault> {
     }))
 }
 
-/// Reads the coefficient, or the word for no slip.
+/// Reads the coefficient `mu`: a number, or the word for a contact that never slips. `expected` describes this
+/// in the error.
 fn mu_of(section: &Section<'_>, expected: &str) -> Result<f64, Fault> {
     let mu = match section.require("mu", expected)? {
         Value::String(word) if word == "stick" => f64::INFINITY,
@@ -100,6 +101,7 @@ fn user_law(friction: &Section<'_>) -> Result<Option<UserFriction>, Fault> {
     }
 }
 
+/// Reads how the coefficient depends on the history of a cell; none where it does not.
 fn friction_history(friction: &Section<'_>) -> Result<Option<FrictionHistory>, Fault> {
     let Some(section) = friction.section("history", &["of", "table"])? else {
         return Ok(None);
@@ -112,7 +114,7 @@ fn friction_history(friction: &Section<'_>) -> Result<Option<FrictionHistory>, F
     }))
 }
 
-/// The law as lines of its section.
+/// The friction law as the lines of its section in a scene file.
 pub(super) fn to_text(friction: &Friction) -> String {
     let mut lines = vec![if friction.mu.is_finite() {
         format!("mu = {:?}", friction.mu)

@@ -176,6 +176,7 @@ pub(super) fn load(
     Err(Fault::value(key, value, allowed))
 }
 
+/// Describes for an error what a number may be: its unit, texts with a unit, and measures.
 fn describe_allowed(kind: Option<Kind>, measures: &[Measure]) -> String {
     let mut allowed = match kind {
         None if measures.is_empty() => return "a number".to_owned(),

@@ -53,7 +53,7 @@ pub(super) fn path(
     Ok(path)
 }
 
-/// The increments of a branch, if they are given.
+/// Reads the number of increments of a branch; none where they are to be chosen.
 fn branch_increments(section: &Section<'_>) -> Result<Option<usize>, Fault> {
     match section.get("increments") {
         None => Ok(None),
@@ -70,7 +70,7 @@ fn branch_increments(section: &Section<'_>) -> Result<Option<usize>, Fault> {
     }
 }
 
-/// The loads and motions of a branch.
+/// The loads and motions at the end of a branch that starts `at` some; what the branch does not name stays.
 fn loads(section: &Section<'_>, at: Loads, mu: f64, width: Option<f64>) -> Result<Loads, Fault> {
     let mut to = at;
     for motion in RigidMotion::ALL {
@@ -106,7 +106,7 @@ fn loads(section: &Section<'_>, at: Loads, mu: f64, width: Option<f64>) -> Resul
     })
 }
 
-/// A measured history: a table of waypoints in a file.
+/// Reads a measured load history from a file: a table of waypoints.
 fn measured_path(root: &Section<'_>, files: &Files<'_>) -> Result<LoadPath, Fault> {
     let section = root.require_section("path", &["file", "increments", "drive"])?;
     let expected = "the name of a file of text";

@@ -57,7 +57,7 @@ const BODY: [&str; 10] = [
     "hardness",
 ];
 
-/// The whole scene, not yet checked for meaning.
+/// Reads the whole scene from its table. Keys and types are checked, not yet the meaning of the values.
 pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
     let root = Section::root(table, &ROOT)?;
     let expected = "1, the version of the scene file";
@@ -140,6 +140,7 @@ fn check_history_keys(root: &Section<'_>) -> Result<(), Fault> {
     Ok(())
 }
 
+/// Reads substrate, shape and hardness of a body.
 fn uncoated_body(section: &Section<'_>, files: &Files<'_>) -> Result<Body, Fault> {
     let rigid = section.get("E").and_then(Value::as_str) == Some("rigid");
     let substrate = if rigid {
@@ -257,7 +258,7 @@ fn residual(body: &Section<'_>) -> Result<Vec<Profile>, Fault> {
     Ok(if stress_free { Vec::new() } else { layers })
 }
 
-/// A stress, or a table of depth and stress.
+/// Reads a residual stress at `key`: one stress, or a table of depth and stress.
 fn profile(key: &str, value: &Value) -> Result<Profile, Fault> {
     const WHAT: &str = "a stress in Pa, or a table of depth and stress, [[depth, s], ..] or \
                         [[depth, s_xx, s_yy], ..]";
@@ -293,7 +294,7 @@ fn profile(key: &str, value: &Value) -> Result<Profile, Fault> {
     })
 }
 
-/// The bonds of the coatings; none where all are perfect.
+/// Reads the bonds below the coatings; none where all are perfect.
 fn bonds(section: &Section<'_>) -> Result<Vec<Bond>, Fault> {
     let bonds = section.sections("coatings", &COATING)?;
     let bonds = bonds.iter().map(|coating| {
@@ -307,6 +308,8 @@ fn bonds(section: &Section<'_>) -> Result<Vec<Bond>, Fault> {
     Ok(if perfect { Vec::new() } else { bonds })
 }
 
+/// Reads the coatings of a body, outermost first, with thickness and modulus also in measures of Hertz's
+/// contact.
 fn coatings(
     section: &Section<'_>,
     body: &Body,
@@ -328,6 +331,7 @@ fn coatings(
 
 const GRID: [&str; 4] = ["n", "extent", "spacing", "plane_strain"];
 
+/// Whether the grid is one row of cells in plane strain.
 fn plane_strain(root: &Section<'_>) -> Result<bool, Fault> {
     let section = root.require_section("grid", &GRID)?;
     section.flag_or("plane_strain", false)

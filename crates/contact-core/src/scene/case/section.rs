@@ -49,7 +49,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// The value as a table.
+    /// The table `value` at `key` as a section; fails if it is no table or has other keys than `allowed`.
     pub(crate) fn from_value(
         key: String,
         value: &'a Value,
@@ -100,7 +100,7 @@ impl<'a> Section<'a> {
         Self::from_value(self.path(name), value, allowed)
     }
 
-    /// The tables of a list; none where it is missing.
+    /// The tables of the list `name`, each with the keys `allowed`; no tables where the list is missing.
     pub fn sections(&self, name: &str, allowed: &[&str]) -> Result<Vec<Self>, Fault> {
         let Some(value) = self.get(name) else {
             return Ok(Vec::new());
@@ -115,7 +115,7 @@ impl<'a> Section<'a> {
             .collect()
     }
 
-    /// A list of pairs of numbers.
+    /// Reads the list `name` of pairs of numbers; `what` describes it in the error.
     pub fn pairs(&self, name: &str, what: &str) -> Result<Vec<(f64, f64)>, Fault> {
         let (key, value) = (self.path(name), self.require(name, what)?);
         let wrong = || Fault::value(&key, value, what);
@@ -131,7 +131,7 @@ impl<'a> Section<'a> {
         pairs.collect()
     }
 
-    /// A list of numbers; empty where it is missing.
+    /// Reads the list `name` of numbers; empty where it is missing. `what` describes it in the error.
     pub fn numbers(&self, name: &str, what: &str) -> Result<Vec<f64>, Fault> {
         let (key, value) = (self.path(name), self.get(name));
         let Some(value) = value else {
@@ -164,11 +164,13 @@ impl<'a> Section<'a> {
         count(&self.path(name), self.require(name, &expected)?, least)
     }
 
+    /// A whole number of at least `least`, or its default where it is left out.
     pub(crate) fn count_or(&self, name: &str, least: i64, default: usize) -> Result<usize, Fault> {
         self.get(name)
             .map_or(Ok(default), |value| count(&self.path(name), value, least))
     }
 
+    /// True or false, or the default where it is left out.
     pub(crate) fn flag_or(&self, name: &str, default: bool) -> Result<bool, Fault> {
         self.get(name).map_or(Ok(default), |value| {
             value
@@ -177,7 +179,7 @@ impl<'a> Section<'a> {
         })
     }
 
-    /// Reads one of several words; the first is the default.
+    /// Reads a word and returns the value of that choice; where the word is missing, the first choice.
     pub fn choice<T: Copy>(&self, name: &str, choices: &[(&str, T)]) -> Result<T, Fault> {
         let Some(value) = self.get(name) else {
             return Ok(choices[0].1);

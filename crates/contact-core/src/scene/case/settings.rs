@@ -70,6 +70,7 @@ const OUTPUT: &Keys<SaveFields> = &[("save", Access::Save(|s| s))];
 /// The words of the presets.
 const PRESETS: [(&str, Preset); 2] = [("fast", Preset::Fast), ("spinu2020", Preset::Spinu2020)];
 
+/// Reads the sections `[kernel]`, `[solver]`, `[skip]`, `[output]`; keys that are left out have their defaults.
 pub(super) fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
     let mut settings = Settings::default();
     read_section(root, "kernel", KERNEL, &mut settings.kernel)?;
@@ -95,7 +96,7 @@ impl Settings {
     }
 }
 
-/// The sections of the settings, every key in full.
+/// The sections `[kernel]`, `[solver]`, `[skip]`, `[output]` of a scene file, every key in full.
 pub(super) fn to_text(settings: &Settings) -> String {
     let mut settings = settings.clone();
     let mut text = String::new();
@@ -106,7 +107,7 @@ pub(super) fn to_text(settings: &Settings) -> String {
     text
 }
 
-/// Reads a section; keys that are missing stay as they are.
+/// Reads a section into the settings `into`; keys that are missing keep their values there.
 fn read_section<T>(
     root: &Section<'_>,
     name: &str,
@@ -132,6 +133,7 @@ fn read_section<T>(
     Ok(())
 }
 
+/// Writes a section with all its keys that have a value.
 fn write_section<T>(text: &mut String, name: &str, keys: &Keys<T>, from: &mut T) {
     // Writing to a text cannot fail.
     let _ = writeln!(text, "\n[{name}]");
@@ -160,6 +162,7 @@ fn write_section<T>(text: &mut String, name: &str, keys: &Keys<T>, from: &mut T)
     }
 }
 
+/// Reads the path grid: "auto", "same" or a number of cells along x.
 fn path_grid(solver: &Section<'_>) -> Result<PathGrid, Fault> {
     match solver.get("path_grid") {
         None => Ok(PathGrid::Auto),
@@ -173,6 +176,7 @@ fn path_grid(solver: &Section<'_>) -> Result<PathGrid, Fault> {
     }
 }
 
+/// Reads the method for the influence coefficients.
 fn kernel_method(kernel: &Section<'_>) -> Result<KernelMethod, Fault> {
     let expected = "\"hankel\", { inverse_fft = { lambda = 8, aliases = 0 } } or \
                 { frequency_domain = { lambda = 8 } }";
@@ -196,6 +200,7 @@ fn kernel_method(kernel: &Section<'_>) -> Result<KernelMethod, Fault> {
     })
 }
 
+/// Reads which increments keep their fields.
 fn save_fields(output: &Section<'_>) -> Result<SaveFields, Fault> {
     let expected = "\"branches\", \"all\" or a list of increments, counted from 1";
     let key = output.path("save");
@@ -213,6 +218,7 @@ fn save_fields(output: &Section<'_>) -> Result<SaveFields, Fault> {
     }
 }
 
+/// The value of `save` in a scene file.
 fn save_text(save: &SaveFields) -> String {
     match save {
         SaveFields::Branches => "\"branches\"".to_owned(),
@@ -221,6 +227,7 @@ fn save_text(save: &SaveFields) -> String {
     }
 }
 
+/// The value of the kernel method in a scene file.
 fn kernel_text(method: KernelMethod) -> String {
     match method {
         KernelMethod::Hankel => "\"hankel\"".to_owned(),

@@ -31,6 +31,7 @@ pub(super) fn shape(body: &Section<'_>, files: &Files<'_>) -> Result<Shape, Faul
     shape_from_value(&body.path("shape"), value, files, expected)
 }
 
+/// Reads a shape: "flat", or a table whose entries are shapes that add up. `what` describes it in the error.
 fn shape_from_value(
     key: &str,
     value: &Value,
@@ -56,7 +57,7 @@ fn shape_from_value(
     }
 }
 
-/// The shape under one key of the table.
+/// Reads the shape `name` (sphere, ellipsoid, cylinder, ...) with its parameters from its table.
 fn named_shape(shapes: &Section<'_>, name: &str, files: &Files<'_>) -> Result<Shape, Fault> {
     let numbers = |keys: &[&str]| shapes.require_section(name, keys);
     let length = "a length in m";
@@ -151,6 +152,7 @@ fn named_shape(shapes: &Section<'_>, name: &str, files: &Files<'_>) -> Result<Sh
     })
 }
 
+/// Reads a list of shapes that add up.
 fn sum_of_shapes(shapes: &Section<'_>, files: &Files<'_>) -> Result<Shape, Fault> {
     let expected = "a list of shapes";
     let (key, value) = (shapes.path("sum"), shapes.require("sum", expected)?);
@@ -212,7 +214,7 @@ pub(super) fn surface_map(section: &Section<'_>, files: &Files<'_>) -> Result<Su
     SurfaceMap::from_file(&path, &format).map_err(|e| wrong(&e))
 }
 
-/// Numbers in the scene itself.
+/// Reads a surface map whose numbers `z` stand in the scene itself.
 fn inline_map(section: &Section<'_>, spacing: (f64, f64)) -> Result<SurfaceMap, Fault> {
     let file_keys = ["file", "unit", "channel"];
     if let Some(key) = file_keys.into_iter().find(|key| section.get(key).is_some()) {
@@ -266,7 +268,7 @@ pub(super) fn to_text(shape: &Shape) -> String {
     format!("{{ {} = {{ {fields} }} }}", shape.name())
 }
 
-/// The entries of a surface map.
+/// The entries of a surface map in a scene file: spacing, number of filled points, and the rows of z.
 pub(super) fn map_text(map: &SurfaceMap) -> String {
     let rows = map.values.rows().into_iter();
     let rows: Vec<_> = rows.map(|row| format!("{:?}", row.to_vec())).collect();

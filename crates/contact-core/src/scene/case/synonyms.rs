@@ -62,7 +62,7 @@ pub(super) fn meant_key(unknown: &str, table: &str, allowed: &[&str]) -> Option<
     in_section.then(|| format!("{table}.{name}"))
 }
 
-/// The allowed name that is nearest to an unknown one.
+/// The allowed name that is nearest to an unknown one in its spelling; none if all are far from it.
 pub(super) fn nearest(unknown: &str, allowed: &[&str]) -> Option<String> {
     let start: String = unknown.chars().take(COMPARED).collect();
     let distance = |name: &&&str| strsim::damerau_levenshtein(&start, name);

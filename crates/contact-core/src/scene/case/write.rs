@@ -102,7 +102,7 @@ fn plastic_text(mut law: Plastic) -> String {
     format!("plastic = {{ {} }}", entries.join(", "))
 }
 
-/// Residual stress of a layer, if it has any.
+/// The line of the residual stress of a layer, if it has any.
 fn residual_text(body: &Body, layer: usize) -> Option<String> {
     let Profile { rows } = body.residual.get(layer)?;
     match rows.as_slice() {
@@ -112,10 +112,13 @@ fn residual_text(body: &Body, layer: usize) -> Option<String> {
     }
 }
 
+/// A text as a TOML string.
 fn quote(text: &str) -> String {
     Value::String(text.to_owned()).to_string()
 }
 
+/// The lines of a body without its coatings: material, shape, plastic law, residual stress, bulk stress,
+/// hardness.
 fn substrate_text(body: &Body) -> String {
     let shape = super::shape::to_text(&body.shape);
     let law = body.plastic(body.coatings.len());
@@ -140,6 +143,7 @@ fn substrate_text(body: &Body) -> String {
     )
 }
 
+/// The lines E and nu of a material.
 fn material(material_text: Elastic) -> String {
     let E = if material_text.is_rigid() {
         "\"rigid\"".to_owned()

@@ -55,20 +55,20 @@ impl LoadPath {
     /// all for as many increments as the first branch of the path has.
     #[must_use]
     pub fn tangential(self, T_x: &[f64], increments: impl Into<Option<usize>>) -> Self {
-        self.visit_loads(RigidMotion::DeltaX, T_x, increments.into())
+        self.append_loads(RigidMotion::DeltaX, T_x, increments.into())
     }
 
     /// Visits the torsional moments `M_z` \[N m\] in turn, as [`Self::tangential`] does the forces.
     #[must_use]
     pub fn torsion(self, M_z: &[f64], increments: impl Into<Option<usize>>) -> Self {
-        self.visit_loads(RigidMotion::PhiZ, M_z, increments.into())
+        self.append_loads(RigidMotion::PhiZ, M_z, increments.into())
     }
 
     /// Presses with the normal forces `W` \[N\] in turn, as [`Self::tangential`] visits its values:
     /// radial fretting, mode II.
     #[must_use]
     pub fn radial(self, W: &[f64], increments: impl Into<Option<usize>>) -> Self {
-        self.visit_loads(RigidMotion::DeltaZ, W, increments.into())
+        self.append_loads(RigidMotion::DeltaZ, W, increments.into())
     }
 
     /// Visits the values of a motion in turn; `prescribed` makes them loads or motions, as
@@ -81,7 +81,7 @@ impl LoadPath {
         values: &[f64],
         increments: impl Into<Option<usize>>,
     ) -> Self {
-        self.visit_prescribed(motion, prescribed, values, increments.into())
+        self.append_prescribed(motion, prescribed, values, increments.into())
     }
 
     /// Holds the loads for some increments, one unit of path time, while the history of friction
@@ -133,13 +133,15 @@ impl LoadPath {
         self
     }
 
-    /// Visits loads of a motion in turn, the increments in proportion to the change.
-    fn visit_loads(self, motion: RigidMotion, values: &[f64], increments: Option<usize>) -> Self {
-        self.visit_prescribed(motion, Prescribed::Load, values, increments)
+    /// Appends a branch to each of the `values` of the load of a motion. `increments` are shared out in
+    /// proportion to the change of the load.
+    fn append_loads(self, motion: RigidMotion, values: &[f64], increments: Option<usize>) -> Self {
+        self.append_prescribed(motion, Prescribed::Load, values, increments)
     }
 
-    /// Visits values of a motion in turn; `prescribed` makes them loads or motions.
-    fn visit_prescribed(
+    /// Appends a branch to each of the `values`, which `prescribed` makes loads or motions of `motion`.
+    /// `increments` are shared out in proportion to the change.
+    fn append_prescribed(
         mut self,
         motion: RigidMotion,
         prescribed: fn(f64) -> Prescribed,

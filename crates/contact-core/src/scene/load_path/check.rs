@@ -80,6 +80,7 @@ impl LoadPath {
         }
     }
 
+    /// Fails at a path without meaning: no branch, bad increments, or loads beyond the limit of `friction`.
     pub(crate) fn check_for_friction(&self, friction: &Friction) -> Result<(), Error> {
         if self.branches.is_empty() {
             return Err(Error::invalid("path", "empty", "at least one branch"));

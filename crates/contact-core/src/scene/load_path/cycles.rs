@@ -37,7 +37,7 @@ struct Nodes {
     since: Vec<usize>,
 }
 
-/// The values of the channels.
+/// The loads, motions and bulk stresses that cycles are compared by, in the order of the channels.
 fn channels(loads: &Loads) -> [f64; CHANNELS] {
     let mut values = [0.0; CHANNELS];
     for (value, motion) in values.iter_mut().zip(RigidMotion::ALL) {
@@ -47,7 +47,8 @@ fn channels(loads: &Loads) -> [f64; CHANNELS] {
     values
 }
 
-/// The kinds of channels that have a common scale: forces, shifts, moments, rotations, bulk stresses, ways.
+/// Number of the kind of a channel; channels of one kind (forces, shifts, moments, rotations, bulk stresses,
+/// distances rolled) have a common scale.
 fn kind(channel: usize, loads: &Loads) -> usize {
     match RigidMotion::ALL.get(channel) {
         Some(motion) => {
@@ -60,6 +61,8 @@ fn kind(channel: usize, loads: &Loads) -> usize {
 }
 
 impl Nodes {
+    /// Reads the nodes of a path, which are its start and the ends of its branches, with the directions in
+    /// which each channel arrives and leaves.
     fn new(path: &LoadPath) -> Self {
         let ends: Vec<Loads> = std::iter::once(Loads::default())
             .chain(path.branches.iter().map(|b| b.to))
@@ -141,13 +144,14 @@ impl Nodes {
         )
     }
 
-    /// Whether a load turns at a node. The path starts and ends there too.
+    /// Whether a load changes its direction at a node. The start and the end of the path count as turns.
     fn turns(&self, node: usize) -> bool {
         let last = self.since[self.ends.len() - 1];
         node == 0 || node >= last || self.arrives[node] != self.leaves[node]
     }
 
-    /// Whether the path from one node to a later one is a whole cycle.
+    /// Whether the path from one node to a later one is a whole cycle: the same loads at both, passed in the
+    /// same direction or turned at.
     fn is_whole(&self, from: usize, to: usize) -> bool {
         let changes = self.since[to] > from;
         if !changes || to < from + 2 || self.difference(from, to).0 > SAME {
@@ -166,7 +170,8 @@ impl Nodes {
         }
     }
 
-    /// Classes of nodes that may have the same loads: a number for each node, and the nodes of each class.
+    /// Sorts nodes into classes that may have the same loads. Returns the class of each node, and the nodes of
+    /// each class in order.
     fn classes(&self) -> (Vec<usize>, Vec<Vec<usize>>) {
         // A sum with weights that no loads share by chance.
         let key = |node: usize| -> f64 {
@@ -192,7 +197,8 @@ impl Nodes {
         (class, classes)
     }
 
-    /// The cycles that follow each other, each from the first node that has one.
+    /// First and last branch (from 0) of the cycles that follow each other, each the shortest from its first
+    /// node.
     fn cycles(&self) -> Vec<(usize, usize)> {
         let (class, classes) = self.classes();
         let mut cycles = Vec::new();
@@ -215,8 +221,9 @@ impl Nodes {
         cycles
     }
 
-    /// The last cycle that ends with the path.
-    fn to_the_end(&self) -> Option<(usize, usize)> {
+    /// First and last branch (from 0) of the shortest whole cycle that ends with the path; none if there is
+    /// none.
+    fn last_whole_cycle(&self) -> Option<(usize, usize)> {
         let end = self.ends.len() - 1;
         let start = (0..end).rev().find(|start| self.is_whole(*start, end));
         start.map(|start| (start, end - 1))
@@ -228,8 +235,9 @@ impl Nodes {
         signs.into_iter().any(|(before, after)| before * after < 0)
     }
 
-    /// A load that goes to and fro once: from a node that the path comes to without a reversal, to the end.
-    fn first_and_back(&self) -> Option<(usize, usize)> {
+    /// First and last branch (from 0) of a single swing, a load that reverses once and comes back: from the
+    /// node on the way there at which the loads were those at the end of the path. None if there is none.
+    fn single_swing(&self) -> Option<(usize, usize)> {
         let end = self.ends.len() - 1;
         let first = (1..end).find(|node| self.reverses(*node))?;
         let start = (1..=first)
@@ -238,9 +246,9 @@ impl Nodes {
         (end >= start + 2 && self.since[end] > start).then_some((start, end - 1))
     }
 
-    /// The path from contact without shear to motions of 0 in the plane, where it is given by motions: a
-    /// motion that was free counts from 0.
-    fn began_without_shear(&self) -> Option<(usize, usize)> {
+    /// First and last branch (from 0) of a path that starts from contact without shear and ends with motions of
+    /// 0 in the plane, if motions drive it: a motion that was free counts from 0. None if there is none.
+    fn cycle_from_no_shear(&self) -> Option<(usize, usize)> {
         let end = self.ends.len() - 1;
         let free = |of| Loads::default().prescribed(of);
         let in_plane = || RigidMotion::ALL.into_iter().filter(|of| of.is_in_plane());
@@ -277,13 +285,11 @@ impl LoadPath {
     pub fn cycles(&self) -> Vec<(usize, usize)> {
         let nodes = Nodes::new(self);
         if let Some(period) = self.period {
-            return self.periods(&nodes, period).unwrap_or_default();
+            return self.cycles_of_period(&nodes, period).unwrap_or_default();
         }
         let cycles = nodes.cycles();
         if cycles.is_empty() {
-            let only = nodes
-                .first_and_back()
-                .or_else(|| nodes.began_without_shear());
+            let only = nodes.single_swing().or_else(|| nodes.cycle_from_no_shear());
             return only.into_iter().collect();
         }
         cycles
@@ -291,7 +297,10 @@ impl LoadPath {
 
     /// The last whole cycle: the one that ends with the path, if there is one.
     pub fn last_cycle(&self) -> Option<(usize, usize)> {
-        let at_end = self.period.is_none().then(|| Nodes::new(self).to_the_end());
+        let at_end = self
+            .period
+            .is_none()
+            .then(|| Nodes::new(self).last_whole_cycle());
         at_end.flatten().or_else(|| self.cycles().last().copied())
     }
 
@@ -310,8 +319,9 @@ impl LoadPath {
         })
     }
 
-    /// The cycles of a given period, back from the end of the path.
-    fn periods(&self, nodes: &Nodes, period: f64) -> Result<Vec<(usize, usize)>, String> {
+    /// First and last branch (from 0) of the cycles of a given period, counted back from the end of the path;
+    /// the error is why the last one is none.
+    fn cycles_of_period(&self, nodes: &Nodes, period: f64) -> Result<Vec<(usize, usize)>, String> {
         let times: Vec<f64> = std::iter::once(0.0)
             .chain(self.branches.iter().map(|b| b.t_end))
             .collect();
@@ -352,7 +362,7 @@ impl LoadPath {
         let allowed = "a load path with a whole closed cycle: its last branch ends where an earlier one ended, as in \
                        [T, -T, T] of T_x";
         let miss = match self.period {
-            Some(period) => self.periods(&nodes, period).err(),
+            Some(period) => self.cycles_of_period(&nodes, period).err(),
             None => nodes.nearest(),
         };
         let miss = miss.map_or_else(String::new, |miss| format!(": {miss}"));
@@ -361,7 +371,7 @@ impl LoadPath {
 }
 
 impl Nodes {
-    /// The name of a channel at a node.
+    /// The name of the load or motion of a channel at a node.
     fn name(&self, channel: usize, node: usize) -> &'static str {
         match RigidMotion::ALL.get(channel) {
             Some(motion) => self.ends[node].prescribed(*motion).name(*motion),
@@ -369,7 +379,8 @@ impl Nodes {
         }
     }
 
-    /// Says by how much the path misses its last node.
+    /// A sentence on the node whose loads come nearest to the loads at the end of the path, for errors; none if
+    /// no load comes back within half of its largest value.
     fn nearest(&self) -> Option<String> {
         let end = self.ends.len() - 1;
         let arrives = |node: &usize| self.arrives[*node] == self.arrives[end];

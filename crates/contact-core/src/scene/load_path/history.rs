@@ -133,7 +133,7 @@ impl LoadPath {
     }
 }
 
-/// The size of the unit of a column in SI units.
+/// The factor from the unit of a column to SI; 1 without a unit.
 fn si_scale(name: &str, column: Column, unit: Option<&str>) -> Result<f64, String> {
     let Some(word) = unit else {
         return Ok(1.0);

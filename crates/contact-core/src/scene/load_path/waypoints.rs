@@ -67,6 +67,7 @@ const OTHERS: [(&str, Column); 4] = [
 ];
 
 impl Column {
+    /// The column of a name; the error gives all names and the nearest one.
     pub(super) fn from_name(name: &str) -> Result<Self, Error> {
         let other_column = OTHERS.iter().find(|(other, _)| *other == name);
         let motion_column =
@@ -84,7 +85,7 @@ impl Column {
             })
     }
 
-    /// Writes a value of the column into the loads or into the path time `t`.
+    /// Writes a value of the column into the loads, or into the path time `t`.
     fn set(self, loads: &mut Loads, t: &mut f64, value: f64) {
         match self {
             Self::Time => *t = value,
@@ -195,7 +196,8 @@ pub type Swing<'a> = (&'a str, f64, f64);
 /// the same: the amplitude is right to `(2 pi 1e-3/points)^2/2`, 1e-6 of it at four points.
 const SAME_POINT: f64 = 1e-3;
 
-/// Points of a period, from 0 to `points`, with the turning points at the fractions `turns` of it between them.
+/// Positions of the points of a period, in order: 0 to `points` - 1, and the turning points at the fractions
+/// `turns` of the period, unless they coincide with a point.
 fn with_turns(points: usize, turns: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut positions: Vec<f64> = (0..points).map(|n| n as f64).collect();
     for turn in turns {

@@ -92,7 +92,7 @@ pub(in crate::scene) fn read_heights(
     reader.place_array(values, unit.as_deref())
 }
 
-/// Size of a unit of length in m.
+/// The size of a unit of length, such as `um`, in m.
 fn unit_of_length(word: &str) -> Result<f64, String> {
     let length_unit = unit::named(word).filter(|(kind, _)| *kind == Kind::Length);
     let allowed = || {
@@ -104,7 +104,7 @@ fn unit_of_length(word: &str) -> Result<f64, String> {
     length_unit.map(|(_, size)| size).ok_or_else(allowed)
 }
 
-/// Fails if rows and columns are a profile or points.
+/// Fails if rows and columns are no map: a profile, points on no even grid, or numbers beside an index.
 fn check_map(table: &Table, names: &[String]) -> Result<(), String> {
     let (rows, columns) = (table.rows(), table.columns);
     let is_evenly_spaced = |n: usize| {
@@ -158,7 +158,8 @@ struct Columns {
 }
 
 impl Columns {
-    /// Finds the columns, if the table is a list of points.
+    /// Finds the columns of x, y and the value, if the table is a list of points on a lattice; none if it is a
+    /// map.
     fn find(
         table: &Table,
         names: &[String],
@@ -202,7 +203,7 @@ impl Columns {
     }
 }
 
-/// Message for points that lie on no lattice.
+/// The message for `rows` points x, y that lie on no lattice.
 fn no_lattice_message((x, y): (usize, usize), rows: usize) -> String {
     format!(
         "columns {} and {}: {rows} points x and y on no even grid. Each place of an even grid must have \
@@ -269,7 +270,7 @@ struct Interpreter<'a> {
 }
 
 impl Interpreter<'_> {
-    /// Size of the unit, for the word in the file.
+    /// The size in m of the unit of a file, from the user's unit and the `word` in the file, which must agree.
     fn unit_size(&self, word: Option<&str>) -> Result<f64, String> {
         let Some(word) = word else {
             return Ok(self.unit.unwrap_or(1.0));
@@ -301,7 +302,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Interprets numbers in the order of their points.
+    /// Scales an array of numbers and gives it the spacing of the format.
     fn place_array(&self, values: Array2<f64>, unit: Option<&str>) -> Result<Heights, String> {
         self.check_channel(None)?;
         let spacing = self.format.spacing.ok_or_else(|| {
@@ -331,7 +332,7 @@ impl Interpreter<'_> {
         Ok(Heights { values, spacing })
     }
 
-    /// The rows below a header of Gwyddion.
+    /// Scales the rows below a header of Gwyddion, which has their extent and unit.
     fn place_picture(&self, table: &Table, header: &Header) -> Result<Heights, String> {
         if let Some(channel) = &header.channel {
             self.check_channel(Some(channel))?;
@@ -343,6 +344,7 @@ impl Interpreter<'_> {
         self.place_with_pitch(values * scale, pitch)
     }
 
+    /// Arranges a list of points x, y, value on their lattice, with the units of the three columns.
     fn place_points(
         &self,
         table: &Table,
@@ -383,6 +385,7 @@ impl Interpreter<'_> {
     }
 }
 
+/// Whether two numbers agree to rounding.
 fn is_close(a: f64, b: f64) -> bool {
     (a - b).abs() <= SAME * b.abs()
 }

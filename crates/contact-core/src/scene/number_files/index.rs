@@ -92,10 +92,12 @@ fn counts_from_0_or_1(numbers: &[f64]) -> bool {
     numbers.first().is_some_and(|n| *n == 0.0 || *n == 1.0) && has_steps_of_one(numbers)
 }
 
+/// Whether each number is the one before plus one.
 fn has_steps_of_one(numbers: &[f64]) -> bool {
     numbers.windows(2).all(|pair| pair[1] - pair[0] == 1.0)
 }
 
+/// Whether each number is larger than the one before.
 fn is_increasing(numbers: &[f64]) -> bool {
     numbers.windows(2).all(|pair| pair[1] > pair[0])
 }

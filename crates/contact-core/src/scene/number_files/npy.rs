@@ -93,6 +93,7 @@ fn header_length(bytes: &[u8]) -> Result<usize, String> {
     Ok(length)
 }
 
+/// The array of a NumPy file of type T, its numbers converted to f64.
 fn to_f64<T: ViewElement + Copy>(
     bytes: &[u8],
     real: impl Fn(T) -> f64,

@@ -72,6 +72,7 @@ impl Line {
         sorted.iter().all(|x| offset(x) < off).then_some(line)
     }
 
+    /// The number of the lattice line nearest to a coordinate.
     fn index(&self, x: f64) -> usize {
         ((x - self.first) / self.pitch).round() as usize
     }
@@ -95,6 +96,8 @@ impl Lattice {
         Self::fit(x, y, points, NEAR).is_some()
     }
 
+    /// Fits the lines along x and y with the tolerance `off`. None if the points are no lattice, lie on one
+    /// line, or fill less than [`FILLED`] of it.
     fn fit<I: Iterator<Item = f64>>(x: I, y: I, points: usize, off: f64) -> Option<Self> {
         let (x, y) = (Line::fit(x, off)?, Line::fit(y, off)?);
         let filled = points as f64 / (x.n as f64 * y.n as f64);

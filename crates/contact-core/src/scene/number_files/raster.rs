@@ -117,7 +117,7 @@ const NODATA: f64 = -9999.0;
 const MOST_SAMPLES: f64 = 1e9;
 
 impl EsriGrid {
-    /// Reads the grid in a text, if it begins as one.
+    /// Reads a text that begins with the header of an ESRI grid; none if it does not.
     pub(super) fn parse(text: &str) -> Option<Result<Self, String>> {
         let Lines { lines, .. } = Lines::split(text);
         let first = lines.first()?.1.split_whitespace().next()?.to_lowercase();
@@ -130,6 +130,7 @@ impl EsriGrid {
             .then(|| Self::parse_lines(&lines))
     }
 
+    /// Reads header and numbers of the grid; the error gives the line at fault.
     fn parse_lines(lines: &[(usize, &str)]) -> Result<Self, String> {
         let mut entries = [None; KEYS.len()];
         let mut remaining = lines;

@@ -26,6 +26,7 @@ pub(super) struct Lines<'a> {
 }
 
 impl<'a> Lines<'a> {
+    /// Splits a text into comments (without `#`) and lines with their numbers; empty lines are left out.
     pub(super) fn split(text: &'a str) -> Self {
         let mark = if text.contains('\n') { '\n' } else { '\r' };
         let (mut comments, mut lines) = (Vec::new(), Vec::new());
@@ -131,6 +132,7 @@ impl Table {
             .copied()
     }
 
+    /// Removes the last column, of numbers and of titles.
     fn remove_last_column(&mut self) {
         let columns = self.columns;
         self.remove_column(columns - 1);
@@ -139,6 +141,7 @@ impl Table {
         }
     }
 
+    /// Removes the first column, of numbers and of titles.
     pub(super) fn remove_first_column(&mut self) {
         let columns = self.columns;
         self.remove_column(0);
@@ -194,6 +197,7 @@ pub(super) struct DecimalSigns {
 }
 
 impl DecimalSigns {
+    /// Notes the decimal sign of a field; fails if the table has both points and commas.
     pub(super) fn check(&mut self, line: usize, field: &str) -> Result<(), String> {
         if field.contains('.') && !is_missing(field) {
             self.point.get_or_insert(line);

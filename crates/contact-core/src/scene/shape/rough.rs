@@ -64,6 +64,7 @@ impl Rough {
         heights.mapv(|z| -factor * z.re)
     }
 
+    /// Fails at a number of the roughness out of its range; `key` is the key of the shape.
     pub(crate) fn check(&self, key: &str) -> Result<(), Error> {
         let refuse = |name: &str, value: f64, allowed: &str| {
             Err(Error::invalid(format!("{key}.{name}"), value, allowed))
@@ -88,6 +89,7 @@ impl Rough {
         Ok(())
     }
 
+    /// Fails if the shortest wave is shorter than two cells.
     pub(crate) fn check_on(&self, grid: &Grid, key: &str) -> Result<(), Error> {
         let cell = grid.dx.max(grid.dy);
         if self.shortest >= 2.0 * cell * (1.0 - 1e-9) {

@@ -211,6 +211,7 @@ fn cut_factor(size: f64, bound: f64) -> f64 {
     if size > bound { bound / size } else { 1.0 }
 }
 
+/// Length of a vector.
 fn norm(v: [f64; 3]) -> f64 {
     v.iter().map(|v| v * v).sum::<f64>().sqrt()
 }
@@ -242,6 +243,8 @@ struct Excess {
     weights: [[f64; 3]; 3],
 }
 
+/// How far the shear cut to its bound, after a rigid motion `shift`, misses the loads, and the derivative of
+/// that by the shift.
 fn excess(problem: &TangentialProblem<'_>, q: &[&mut [f64]; 2], shift: [f64; 3]) -> Excess {
     let [q_x, q_y] = q;
     let sums = sums([problem.bound, q_x, q_y], |n, [g, q_x, q_y]| {

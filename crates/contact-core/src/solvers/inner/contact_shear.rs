@@ -21,7 +21,7 @@ pub(crate) struct ContactShear {
 }
 
 impl ContactShear {
-    /// Copies all fields of the contact cells from the grid.
+    /// Copies bound, arms, displacement without slip, shear and slip set of the contact cells from the grid.
     pub(crate) fn pack(
         &mut self,
         cells: &ContactCells,
@@ -45,7 +45,7 @@ impl ContactShear {
         cells.pack(shear.slips, &mut self.slips);
     }
 
-    /// The problem and the shear in the solver's form.
+    /// Borrows the packed fields as the problem and the shear that the solver takes.
     pub(crate) fn problem_and_shear(&mut self, drive: Drive) -> (TangentialProblem<'_>, Shear<'_>) {
         let problem = TangentialProblem {
             bound: &self.bound,
@@ -94,7 +94,7 @@ pub(crate) struct ShearBefore {
 }
 
 impl ShearBefore {
-    /// Keeps the present shear.
+    /// Keeps shear and displacements, to go back to.
     pub(crate) fn save(&mut self, shear: &Shear<'_>) {
         let pairs = [(&mut self.q, &shear.q), (&mut self.u, &shear.u)];
         for (kept, now) in pairs {
@@ -111,10 +111,9 @@ impl ShearBefore {
         }
     }
 
-    /// Whether the energy was lower before the step, by more than |dq| `tolerance` \[m\] and the
-    /// rounding error of the work. With C symmetric and sum dq = 0 the difference of the energy is
-    /// sum of dq times the mean slip. The rigid motion `shift` is left out of the slip: it is
-    /// thousands of times the misfit, and rounding keeps sum dq from being exactly zero.
+    /// Whether the energy was lower before the step, by more than |dq| times `tolerance` \[m\] and than the
+    /// rounding error of the work. With C symmetric and sum dq = 0, the difference of the energy is the sum of
+    /// dq times the mean slip.
     pub(crate) fn is_lower(
         &self,
         problem: &TangentialProblem<'_>,

@@ -106,6 +106,7 @@ fn friction_power(problem: &TangentialProblem<'_>, m: [f64; 3]) -> f64 {
         .sum()
 }
 
+/// a . b
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|k| a[k] * b[k]).sum()
 }

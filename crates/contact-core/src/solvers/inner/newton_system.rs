@@ -61,6 +61,7 @@ pub(crate) struct NewtonSystem {
 }
 
 impl NewtonSystem {
+    /// Allocates buffers for fields of `cells` cells.
     pub(crate) fn new(cells: usize) -> Self {
         let field = || Vec::with_capacity(cells);
         let pair = || [field(), field()];
@@ -191,7 +192,7 @@ impl NewtonSystem {
         add_vectors(shift, correction.map(|s| -s))
     }
 
-    /// Computes S and A of the preconditioner.
+    /// Computes the scaling S and the diagonal A of the preconditioner S P S + A for the present tangent space.
     fn compute_preconditioner(&mut self) {
         let exact = EXACT_EIGENVALUE * self.c_xx;
         // The square root of the number of contact cells is about their number across.

@@ -176,6 +176,7 @@ struct Descent {
 }
 
 impl Descent {
+    /// Starts with the preconditioner and without a last direction.
     fn new() -> Self {
         Self {
             best: f64::INFINITY,
@@ -185,7 +186,7 @@ impl Descent {
         }
     }
 
-    /// Drops the preconditioner where the misfit stalls.
+    /// Records the misfit \[m\] of an iteration; switches the preconditioner off if it stalls.
     fn record_misfit(&mut self, misfit: f64) {
         if misfit < self.best {
             (self.best, self.since_best) = (misfit, 0);

@@ -23,6 +23,7 @@ pub(crate) struct ProjectedGradient {
 }
 
 impl ProjectedGradient {
+    /// Resizes all fields to `cells` cells.
     fn allocate(&mut self, cells: usize) {
         for pair in [
             &mut self.ahead,

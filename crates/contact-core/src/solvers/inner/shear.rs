@@ -19,7 +19,8 @@ pub struct TangentialProblem<'a> {
 }
 
 impl TangentialProblem<'_> {
-    /// The slip of cell n with the rigid motion `shift` \[m\].
+    /// The slip increment of cell n \[m\]: displacement `u` less the displacement without slip and the rigid
+    /// motion `shift`.
     pub(crate) fn slip(&self, u: &[&mut [f64]; 2], shift: [f64; 3], n: usize) -> [f64; 2] {
         let at_cell = |f: [&[f64]; 2]| [f[0][n], f[1][n]];
         slip(

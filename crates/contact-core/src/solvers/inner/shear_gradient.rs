@@ -24,6 +24,7 @@ pub(crate) struct GradientBuffers {
 }
 
 impl GradientBuffers {
+    /// Resizes all fields to `cells` cells.
     fn allocate(&mut self, cells: usize) {
         for pair in [
             &mut self.residual,
@@ -45,7 +46,8 @@ const MOST_WITHOUT_GAIN: usize = 30;
 /// reach the tolerance.
 const DESCENT: usize = 200;
 
-/// Solves for the shear. On entry it must be admissible.
+/// Solves for the shear by conjugate gradients on the stick cells and projected steps on the slip cells. On
+/// entry the shear must be admissible.
 pub(crate) fn shear_gradient(
     response: &mut Response<'_>,
     problem: &TangentialProblem<'_>,

@@ -34,6 +34,7 @@ pub(super) struct CellTangent {
 }
 
 impl Tangent {
+    /// Allocates fields for `cells` cells.
     pub(super) fn new(cells: usize) -> Self {
         let field = || Vec::with_capacity(cells);
         Self {
@@ -79,6 +80,7 @@ impl Tangent {
 }
 
 impl CellTangent {
+    /// The tangent space of one cell, from its values in [`Tangent::fields`].
     pub(super) fn from_fields([t_x, t_y, a_x, a_y, weight]: [f64; 5]) -> Self {
         Self {
             across: [t_x, t_y],
@@ -102,7 +104,7 @@ impl CellTangent {
         [a, b, x * b - y * a]
     }
 
-    /// Its part of B^T w Pi B: xx, xy, yy, xr, yr, rr.
+    /// The part of this cell in the matrix B^T w Pi B: its entries xx, xy, yy, xr, yr, rr.
     pub(super) fn gram(self) -> [f64; 6] {
         let [x, y] = self.arm;
         let (x_projected, y_projected) = (self.project([1.0, 0.0]), self.project([0.0, 1.0]));

@@ -164,6 +164,7 @@ struct Newton<'a> {
 }
 
 impl<'a> Newton<'a> {
+    /// Packs the contact cells and sets up the Newton system on them.
     fn new(
         response: &Response<'_>,
         problem: &TangentialProblem<'_>,
@@ -249,6 +250,7 @@ impl<'a> Newton<'a> {
         }
     }
 
+    /// The error after too many iterations.
     fn failure(&self) -> SolverError {
         SolverError {
             solver: "tangential",

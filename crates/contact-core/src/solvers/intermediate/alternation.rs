@@ -130,6 +130,7 @@ fn gap_after_shear(
     check.misfit()
 }
 
+/// The error of an alternation that has not converged.
 fn error_without_convergence(
     residual: f64,
     info: &AlternationInfo,

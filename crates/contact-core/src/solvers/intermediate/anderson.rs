@@ -51,6 +51,7 @@ pub(crate) struct Anderson {
 }
 
 impl Anderson {
+    /// Allocates buffers for fields of `cells` cells.
     pub(crate) fn new(cells: usize) -> Self {
         let field = || vec![0.0; cells];
         Self {

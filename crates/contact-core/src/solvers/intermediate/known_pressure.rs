@@ -217,6 +217,7 @@ fn iterate_with_turn(
     false
 }
 
+/// Takes shift and iterations of a tangential solution into the account.
 fn record_solution(info: &mut AlternationInfo, solution: &TangentialInfo) {
     info.tangential_iterations += solution.passes;
     info.shift = solution.shift;

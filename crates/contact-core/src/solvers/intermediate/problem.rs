@@ -33,6 +33,7 @@ pub struct IncrementProblem<'a> {
 }
 
 impl<'a> IncrementProblem<'a> {
+    /// The normal problem of the increment.
     pub(super) fn normal_problem(&self) -> NormalProblem<'a> {
         NormalProblem {
             h_init: self.h_init,

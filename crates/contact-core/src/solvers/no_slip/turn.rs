@@ -78,13 +78,13 @@ impl<'a> EarlierTractions<'a> {
     }
 }
 
-/// t of cell n for |ds| = `slip` \[m\],
+/// The turn term of cell n \[m\] for the slip |ds| = `slip` \[m\],
 ///
 /// ```text
-/// |ds| fade(cos c) w sin(c)/|w e + e_1|,   c the angle from e to e_1,
+/// t = |ds| fade(cos c) w sin(c)/|w e + e_1|,   c the angle from e to e_1,
 /// ```
 ///
-/// and t', its derivative by c over |ds|.
+/// and t', its derivative by c over |ds|. None for a cell without friction or without earlier contact.
 pub(super) fn turn_of_cell(
     last: &Interface,
     earlier: &EarlierTractions<'_>,
@@ -99,8 +99,8 @@ pub(super) fn turn_of_cell(
     }
     let (e, w, known) = match last.slips[n] {
         true if earlier.p[n] <= 0.0 => return None,
-        true => mean_of_slipping_cell(last, earlier, e_1, n),
-        false => mean_at_onset(at_cell(earlier.q), at_cell(&last.q), e_1, bound)?,
+        true => slipping_direction(last, earlier, e_1, n),
+        false => onset_direction(at_cell(earlier.q), at_cell(&last.q), e_1, bound)?,
     };
     let cos = dot(e, e_1).clamp(-1.0, 1.0);
     let sin = e[0] * e_1[1] - e[1] * e_1[0];
@@ -118,10 +118,10 @@ pub(super) fn turn_of_cell(
     Some(([-across * e_1[1], across * e_1[0]], follows))
 }
 
-/// A cell that starts to slip: the direction e at which its shear, extrapolated from `before`
-/// through `last`, meets the bound \[Pa\], the weight w, and a factor 0 to 1 by which the turn
-/// counts ([`ONSET_TOLERANCE`]).
-fn mean_at_onset(
+/// Direction of the shear of a cell that starts to slip in the increment. Returns the direction e at which its
+/// shear, extrapolated from `before` through `last`, meets the bound \[Pa\], the weight w of e, and a factor 0
+/// to 1 by which the turn counts ([`ONSET_TOLERANCE`]). `e_1` is the direction at the end of the increment.
+fn onset_direction(
     before: [f64; 2],
     last: [f64; 2],
     e_1: [f64; 2],
@@ -135,10 +135,10 @@ fn mean_at_onset(
     Some((direction_and_size(begin).0, WEIGHT_AT_ONSET, known))
 }
 
-/// A cell that has slipped before: the direction e, the weight w, and the factor 1. b is reduced
-/// where the turn of the last increment, times r or b/a, is larger than the turn of this one, so that
-/// the mean direction lies between e_0 and e_1 if the two turns have opposite signs.
-fn mean_of_slipping_cell(
+/// Direction of the shear of a cell that has slipped before: the direction e, its weight w, and the factor 1.
+/// Where the turns of the last increment and of this one (to `e_1`) have opposite signs, the weight b of the
+/// earlier direction is reduced, so that e lies between e_0 and e_1.
+fn slipping_direction(
     last: &Interface,
     earlier: &EarlierTractions<'_>,
     e_1: [f64; 2],
@@ -183,6 +183,7 @@ fn intersection_with_bound(before: [f64; 2], last: [f64; 2], bound: f64) -> Opti
         .then(|| [last[0] + t * step[0], last[1] + t * step[1]])
 }
 
+/// a . b
 fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }

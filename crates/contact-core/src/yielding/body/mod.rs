@@ -64,6 +64,8 @@ pub(super) struct YieldingBody {
 }
 
 impl YieldingBody {
+    /// Builds a body (its `number` is 1 or 2) that may yield, on a volume grid: mesh, laws of each plane,
+    /// residual stress.
     pub(super) fn new(number: usize, body: &Body, volume: &Volume) -> Result<Self, Error> {
         let mesh = volume.mesh(number, body)?;
         let law = |plane: usize| {
@@ -109,10 +111,12 @@ impl YieldingBody {
         })
     }
 
+    /// The mesh of the body.
     pub(super) fn mesh(&self) -> &Mesh {
         self.operator.mesh()
     }
 
+    /// Cells of a plane of the mesh.
     fn cells(&self) -> usize {
         self.mesh().cells.len()
     }
@@ -123,7 +127,7 @@ impl YieldingBody {
         (point / cells * COMPONENTS + component) * cells + point % cells
     }
 
-    /// The plane times cells plus cell of a point of a state; `None` beyond the grid.
+    /// Index (plane times cells plus cell) of a yielded point of a state; `None` beyond the grid.
     fn point(&self, known: &PlasticPoint) -> Option<usize> {
         let (plane, cell) = (known.plane as usize, self.volume.cell(known.cell)?);
         (plane < self.laws.len()).then(|| plane * self.cells() + cell)
@@ -146,7 +150,7 @@ impl YieldingBody {
 
     /// Starts from the state at the start of an increment and its tractions, with z into body 2 \[Pa\].
     pub(super) fn begin(&mut self, state: Option<&PlasticState>, tractions: &[Vec<f64>; 3]) {
-        self.start_tractions = self.facing(tractions);
+        self.start_tractions = self.tractions_on_body(tractions);
         self.start_stress.clear();
         for (point, ..) in std::mem::take(&mut self.active) {
             self.slot[point] = NONE;
@@ -180,8 +184,8 @@ impl YieldingBody {
         }
     }
 
-    /// Tractions on the body, with z into it: on body 1 the shear is the opposite.
-    fn facing(&self, tractions: &[Vec<f64>; 3]) -> [Vec<f64>; 3] {
+    /// The tractions on this body, with z into it: body 1 gets the opposite shear.
+    fn tractions_on_body(&self, tractions: &[Vec<f64>; 3]) -> [Vec<f64>; 3] {
         let mut signed = tractions.clone();
         if self.number == 1 {
             for q in &mut signed[..2] {
@@ -223,9 +227,9 @@ impl YieldingBody {
         }
     }
 
-    /// Stress of a plane that is the same in all its cells \[Pa\]: the residual stress before the first load, and
-    /// the part of a bulk stress.
-    fn uniform(&self, plane: usize, bulk: f64) -> Tensor {
+    /// The stress of a plane that does not depend on the tractions \[Pa\]: the residual stress before the first
+    /// load, and the bulk stress where it is `bulk` at the surface.
+    fn uniform_stress(&self, plane: usize, bulk: f64) -> Tensor {
         let ([xx, yy], course) = (self.initial[plane], self.bulk_course[plane]);
         [
             xx + bulk * course[0],
@@ -241,7 +245,7 @@ impl YieldingBody {
     pub(super) fn add_uniform(&self, stress: &mut [f64], bulk: f64) {
         let cells = self.cells();
         for (plane, of_plane) in stress.chunks_exact_mut(COMPONENTS * cells).enumerate() {
-            let uniform = self.uniform(plane, bulk);
+            let uniform = self.uniform_stress(plane, bulk);
             for (field, uniform) in of_plane.chunks_exact_mut(cells).zip(uniform) {
                 for s in field.iter_mut() {
                     *s += uniform;
@@ -258,7 +262,7 @@ impl YieldingBody {
         tractions: Option<&[Vec<f64>; 3]>,
     ) -> (Vec<f64>, Vec<f64>) {
         self.begin(state, &Default::default());
-        let signed = tractions.map(|tractions| self.facing(tractions));
+        let signed = tractions.map(|tractions| self.tractions_on_body(tractions));
         let mut stress = vec![0.0; self.operator.len()];
         let mut everywhere = vec![0.0; self.next_everywhere.len()];
         let is_computed = vec![true; self.may_yield.len()];

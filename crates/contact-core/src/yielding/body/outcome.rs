@@ -83,7 +83,8 @@ impl YieldingBody {
         ends(cell / cells.ny, cells.nx) || across || plane + 1 == planes
     }
 
-    /// Largest equivalent plastic strain, and whether it lies at a rim.
+    /// Largest equivalent plastic strain and, if the point lies at the border of the volume, on which rim. None
+    /// if nothing has yielded.
     pub(in crate::yielding) fn largest(&self) -> Option<(f64, Option<Rim>)> {
         let (point, _, end) =
             (self.active.iter()).max_by(|a, b| a.2.equivalent.total_cmp(&b.2.equivalent))?;
@@ -96,15 +97,15 @@ impl YieldingBody {
         Some((end.equivalent, rim))
     }
 
-    /// Largest inverse of the factor by which the stress of tractions grows, beside the residual stress, until
-    /// a point yields, without plastic strain: that inverse, body, layer, depth \[m\]. Without residual stress it is
-    /// the stress of von Mises over the yield stress.
+    /// The point that is nearest to yield under tractions, without plastic strain: 1/f of the factor f by which
+    /// the stress of the tractions has to grow, beside the residual stress, until the point yields; body,
+    /// layer, depth \[m\]. Without residual stress 1/f is the stress of von Mises over the yield stress.
     pub(in crate::yielding) fn nearest_to_yield(
         &mut self,
         tractions: &[Vec<f64>; 3],
     ) -> Option<(f64, usize, usize, f64)> {
         self.begin(None, &Default::default());
-        self.tractions = self.facing(tractions);
+        self.tractions = self.tractions_on_body(tractions);
         self.respond();
         let cells = self.cells();
         let of_plane = |plane: usize| {

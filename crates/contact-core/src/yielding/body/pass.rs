@@ -25,10 +25,10 @@ fn square_of_von_mises(stress: &Tensor) -> f64 {
 }
 
 impl YieldingBody {
-    /// One pass: stress, return, displacement. True where neither strain nor displacement would change
-    /// beyond the tolerance.
+    /// Computes stress, plastic strain (return mapping) and displacement under the tractions once. True if
+    /// strain and displacement agree with those that the pass began with, within the tolerance.
     pub(in crate::yielding) fn pass(&mut self, tractions: &[Vec<f64>; 3]) -> bool {
-        self.tractions = self.facing(tractions);
+        self.tractions = self.tractions_on_body(tractions);
         self.respond();
         let returned = self.returned();
         let reached = returned.iter().map(|(_, most)| *most);
@@ -38,7 +38,7 @@ impl YieldingBody {
                 *wanted = !points.is_empty() || *most > NEAR * NEAR;
             }
         }
-        self.off = self.take(returned);
+        self.off = self.store_returned(returned);
         let largest = self
             .next_displacement
             .iter()
@@ -48,8 +48,8 @@ impl YieldingBody {
         self.off <= TOLERANCE && moved <= DISPLACEMENT * largest
     }
 
-    /// Whether a point yields on the planes that the last pass has left out, under its tractions and strain.
-    /// Those planes are computed from then on.
+    /// Whether a point yields on a plane that the last pass has left out. Such planes are computed from then
+    /// on.
     pub(in crate::yielding) fn others_yield(&mut self) -> bool {
         if self.computed == self.may_yield {
             return false;
@@ -64,11 +64,12 @@ impl YieldingBody {
         for (wanted, (points, _)) in self.wanted.iter_mut().zip(&returned) {
             *wanted |= !points.is_empty();
         }
-        self.take(returned) > TOLERANCE
+        self.store_returned(returned) > TOLERANCE
     }
 
-    /// Points that yield on each plane that is computed, and its largest stress over the yield stress, squared.
-    /// The stress at the start of the increment is computed at the first of them.
+    /// For each plane, the points that yield (index and result of the return mapping), and the square of its
+    /// largest stress over the yield stress. The stress at the start of the increment is computed when the
+    /// first point yields.
     fn returned(&mut self) -> Vec<(Vec<(usize, Returned)>, f64)> {
         if self.start_stress.is_empty() && self.yields() {
             self.start_stress = self.stress_at_start();
@@ -85,7 +86,7 @@ impl YieldingBody {
             };
             let stress = &self.stress[plane * COMPONENTS * cells..][..COMPONENTS * cells];
             let limit = law.s_y * (1.0 + YIELDS);
-            let uniform = self.uniform(plane, self.bulk[1]);
+            let uniform = self.uniform_stress(plane, self.bulk[1]);
             (0..cells).any(|cell| {
                 square_of_von_mises(&whole_stress(stress, cell, &uniform)) > limit * limit
             })
@@ -119,6 +120,7 @@ impl YieldingBody {
         stress
     }
 
+    /// Computes the points and stresses of [`Self::returned`], once the stress at the start of the increment is known.
     fn returned_from_start(&self) -> Vec<(Vec<(usize, Returned)>, f64)> {
         let cells = self.cells();
         let (laws, stress, strain, slot, active) = (
@@ -141,7 +143,7 @@ impl YieldingBody {
             let start_stress = &self.start_stress.get(plane * block..).unwrap_or_default();
             let start_stress = start_stress.get(..block).unwrap_or_default();
             let slots = &slot[plane * cells..][..cells];
-            let [before, now] = self.bulk.map(|bulk| self.uniform(plane, bulk));
+            let [before, now] = self.bulk.map(|bulk| self.uniform_stress(plane, bulk));
             let mut yielded = Vec::new();
             let (limit, mut most) = (law.s_y * (1.0 + YIELDS), 0.0_f64);
             for cell in 0..cells {
@@ -171,8 +173,8 @@ impl YieldingBody {
         (0..laws.len()).into_par_iter().map(of_plane).collect()
     }
 
-    /// Takes the returned points; gives the largest change of the stress over the yield stress.
-    fn take(&mut self, found: Vec<(Vec<(usize, Returned)>, f64)>) -> f64 {
+    /// Stores the results of the return mapping; returns the largest change of stress over the yield stress.
+    fn store_returned(&mut self, found: Vec<(Vec<(usize, Returned)>, f64)>) -> f64 {
         let cells = self.cells();
         let mut off = 0.0_f64;
         for (point, returned) in found.into_iter().flat_map(|(points, _)| points) {
@@ -192,7 +194,7 @@ impl YieldingBody {
         off
     }
 
-    /// Stress of the tractions and the present strain, displacement of the strain alone.
+    /// Computes the stress of tractions and present strain, and the displacement of the strain alone.
     pub(super) fn respond(&mut self) {
         self.computed.clone_from(&self.wanted);
         let [x, y, z] = &self.tractions;

@@ -11,8 +11,8 @@ use crate::yielding::state::PlasticState;
 const SCALE: f64 = 0.3;
 
 impl YieldingBody {
-    /// A guess of x: the state at the start of the increment, grown by `factor` times the growth of the
-    /// last one.
+    /// Guesses the unknowns: the state at the start of the increment, plus `factor` times its growth in the
+    /// last increment.
     pub(in crate::yielding) fn guess(&mut self, state: &PlasticState, factor: f64) {
         for (u, growth) in self.displacement.iter_mut().zip(&state.growth) {
             *u += factor * growth;
@@ -28,12 +28,12 @@ impl YieldingBody {
         }
     }
 
-    /// Points that have yielded or may.
+    /// Number of points that have yielded or may.
     pub(in crate::yielding) fn slots(&self) -> usize {
         self.active.len()
     }
 
-    /// Growth of the strain in the increment, of x.
+    /// Yields the growth of the plastic strain in the increment, as in the present unknowns.
     pub(in crate::yielding) fn grown(&self) -> impl Iterator<Item = f64> {
         self.active.iter().flat_map(|(point, start, _)| {
             (0..COMPONENTS)
@@ -41,7 +41,7 @@ impl YieldingBody {
         })
     }
 
-    /// The unknowns of its image.
+    /// Yields the growth of the plastic strain in the increment after the last pass.
     pub(in crate::yielding) fn next_grown(&self) -> impl Iterator<Item = f64> {
         let grown = |(_, start, end): &(usize, Point, Returned)| -> [f64; COMPONENTS] {
             std::array::from_fn(|c| end.strain[c] - start.strain[c])
@@ -49,7 +49,7 @@ impl YieldingBody {
         self.active.iter().flat_map(grown)
     }
 
-    /// Displacement \[m\] over its unit in x.
+    /// Yields the displacement \[m\] over its unit in the unknowns.
     pub(in crate::yielding) fn scaled<'a>(
         &self,
         displacement: &'a [f64],
@@ -58,7 +58,7 @@ impl YieldingBody {
         displacement.iter().map(move |u| u / unit)
     }
 
-    /// Unit of the displacements in x \[m\]: the yield strain along the depth of the first element.
+    /// Unit of the displacements in the unknowns \[m\]: the yield strain along the depth of the first element.
     fn unit(&self) -> f64 {
         let laws = self.laws.iter().flatten();
         let strain = laws
@@ -70,6 +70,7 @@ impl YieldingBody {
         strain * height / SCALE
     }
 
+    /// Takes the displacement from the unknowns x at index `from`; returns the index after it.
     pub(in crate::yielding) fn take_displacement(&mut self, x: &[f64], from: usize) -> usize {
         let (unit, n) = (self.unit(), self.displacement.len());
         for (u, x) in self.displacement.iter_mut().zip(&x[from..from + n]) {
@@ -78,6 +79,7 @@ impl YieldingBody {
         from + n
     }
 
+    /// Takes the plastic strain from the unknowns x at index `from`; returns the index after it.
     pub(in crate::yielding) fn take_strain(&mut self, x: &[f64], from: usize) -> usize {
         let n = COMPONENTS * self.active.len();
         for (slot, grown) in x[from..from + n].chunks_exact(COMPONENTS).enumerate() {
