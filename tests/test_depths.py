@@ -124,3 +124,23 @@ def test_a_layer_above_the_first_row_of_cells_is_told() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         fret.solve(sphere_on_flat(n=24), PATH, progress=False).at(-1).stress()
+
+
+@pytest.mark.solves
+@pytest.mark.parametrize("place", [0.0, 1e-5])
+def test_a_measure_that_is_negative_everywhere_has_no_largest_value(place: float) -> None:
+    """s_3 is 0 far from a contact: the end of a section is no place of a maximum."""
+    x = fret.Grid.centred(width=2e-4, n=24).x - place
+    ball = fret.SurfaceMap(-(x[:, None] ** 2 + x**2) / 0.01, spacing=2e-4 / 24)
+    scene = fret.Scene(
+        body1=fret.Body(fret.Elastic(E=210e9, nu=0.3), shape=ball),
+        body2=fret.Body(fret.Elastic(E=210e9, nu=0.3)),
+        friction=0.0,
+        grid=fret.Grid.centred(width=2e-4, n=24),
+        path=fret.LoadPath.start().normal(10.0),
+    )
+    stress = fret.solve(scene, progress=False).at(-1).stress()
+    assert stress.s_3.max() < 0.0
+    with pytest.raises(ValueError, match=r"s_3 is negative .* no largest value"):
+        stress.maximum("s_3")
+    assert stress.maximum("von_mises").value > 0.0

@@ -7,7 +7,7 @@
 //! them, its section is made deeper. This is possible since the tractions are known, so the field
 //! is known beyond the grid.
 
-use ndarray::{Array1, Array2, ArrayView1, ArrayView2, Axis};
+use ndarray::{Array1, Array2, ArrayRef, ArrayView2, Axis, Dimension};
 
 use super::climb::Start;
 use super::depth::interface_mask;
@@ -36,7 +36,8 @@ const MIN_RISING_PART: f64 = 0.05;
 
 /// A largest value, and the layers whose samples still rise at the end of the longest section.
 pub struct BodyMaximum {
-    /// The largest value; `None` if all samples are NaN.
+    /// The largest value; `None` if all samples are NaN, or if all are negative and still rise at
+    /// the end of the longest section: such a number has no largest value near the contact.
     pub largest: Option<Extremum>,
     /// Layers from the surface down.
     pub still_rises: Vec<usize>,
@@ -223,6 +224,7 @@ pub fn find_body_maximum(
             (free, on_line) => free.or(on_line),
         };
     }
+    largest = largest.filter(|top| top.value >= 0.0 || !still_rises.contains(&top.depth.layer));
     Ok(BodyMaximum {
         largest,
         still_rises,
@@ -246,6 +248,18 @@ fn depth_step(depths: &[Depth], at: Depth) -> f64 {
         .map(|d| (d.z - at.z).abs());
     let nearest = others.fold(f64::INFINITY, f64::min);
     if nearest.is_finite() { nearest } else { 0.0 }
+}
+
+/// The largest of some samples that is a number; minus infinity without one.
+fn largest_sample<D: Dimension>(samples: &ArrayRef<f64, D>) -> f64 {
+    let numbers = samples.iter().filter(|v| !v.is_nan());
+    numbers.copied().fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// The value that lies below the largest by all but a part of its size: below 0 a largest value is
+/// small where the samples are everywhere negative.
+fn level(part: f64, largest: f64) -> f64 {
+    largest - (1.0 - part) * largest.abs()
 }
 
 fn sample_section(
@@ -280,23 +294,22 @@ impl LineSamples {
             return Ok(false);
         };
         let limit = DEEPER * last.z;
-        let largest_of = |values: &ArrayView1<'_, f64>| {
-            let numbers = values.iter().filter(|v| !v.is_nan());
-            numbers.copied().fold(0.0, f64::max)
-        };
         let mut depth = last;
         loop {
             let tops: Vec<f64> = self
                 .values
                 .rows()
                 .into_iter()
-                .map(|row| largest_of(&row))
+                .map(|row| largest_sample(&row))
                 .collect();
             let [.., before, deepest] = tops[..] else {
                 return Ok(false);
             };
-            let top = tops.iter().copied().fold(0.0, f64::max);
-            if deepest < HIGH * top || deepest - before <= FLAT * top {
+            let top = largest_sample(&self.values);
+            if top == f64::NEG_INFINITY
+                || deepest < level(HIGH, top)
+                || deepest - before <= FLAT * top.abs()
+            {
                 return Ok(false);
             }
             depth.z *= DOWN;
@@ -320,16 +333,15 @@ impl LineSamples {
 
     /// The depths at which the samples rise towards an end of the line, [`ROWS`] of them at most.
     fn rising_depths(&self) -> Vec<usize> {
-        let numbers = self.values.iter().filter(|v| !v.is_nan());
-        let top = numbers.copied().fold(0.0, f64::max);
+        let top = largest_sample(&self.values);
         let rises = |row: &usize| {
             let row = self.values.row(*row);
             let n = row.len();
             let ends = [(0, 1), (n - 1, n.saturating_sub(2))];
             n > 2
-                && ends
-                    .into_iter()
-                    .any(|(end, next)| row[end] > MIN_RISING_PART * top && row[end] > row[next])
+                && ends.into_iter().any(|(end, next)| {
+                    row[end] > level(MIN_RISING_PART, top) && row[end] > row[next]
+                })
         };
         let rows: Vec<usize> = (0..self.depths.len()).filter(rises).collect();
         let count = ROWS.min(rows.len());
@@ -383,14 +395,13 @@ impl LineSamples {
     /// Checks that the largest sample is at an end of the line and its neighbour is smaller by more
     /// than [`FLAT`] of it. The stress far from a contact under bulk stress is even.
     fn is_largest_at_an_end(&self) -> bool {
-        let numbers = self.values.iter().filter(|v| !v.is_nan());
-        let top = numbers.copied().fold(0.0, f64::max);
+        let top = largest_sample(&self.values);
         self.values.rows().into_iter().any(|row| {
             let n = row.len();
             n > 2
                 && [(0, 1), (n - 1, n - 2)]
                     .into_iter()
-                    .any(|(end, next)| row[end] >= top && row[end] - row[next] > FLAT * top)
+                    .any(|(end, next)| row[end] >= top && row[end] - row[next] > FLAT * top.abs())
         })
     }
 }

@@ -11,8 +11,8 @@ use contact_core::scene::{Body, Profile, ResidualStress, Scene};
 use contact_core::zones::Outline;
 use contact_store::{ImageData, Store, StressStore, VolumeSink, write_volume};
 use contact_subsurface::{
-    Depth, Line, Loads as LoadedBody, Probe, Search, Section, Side, Slices, States, default_depths,
-    depths, find_body_maximum,
+    BodyMaximum, Depth, Line, Loads as LoadedBody, Probe, Search, Section, Side, Slices, States,
+    default_depths, depths, find_body_maximum,
 };
 use ndarray::Axis;
 
@@ -354,7 +354,7 @@ impl Task {
                         samples,
                         None,
                     )?;
-                    warn_of_rising_stress(probe, self.body(), &values_and_largest.still_rises);
+                    warn_of_rising_stress(probe, self.body(), &values_and_largest);
                     let axes: &[&str] = if grid.plane_strain {
                         &["x"]
                     } else {
@@ -450,13 +450,17 @@ fn is_image(options: &Options) -> bool {
 }
 
 /// Warns of layers whose stress still rises at the end of the longest section.
-fn warn_of_rising_stress(probe: &Probe, body: &Body, layers: &[usize]) {
-    for layer in layers {
+fn warn_of_rising_stress(probe: &Probe, body: &Body, maximum: &BodyMaximum) {
+    let name = probe.name();
+    for layer in &maximum.still_rises {
+        let layer = body.layer_name(*layer);
+        let consequence = if maximum.largest.is_some() {
+            "a larger value may lie beyond; use a longer grid"
+        } else {
+            "it is negative and has no largest value near the contact"
+        };
         print_message(&format!(
-            "fret: warning: {} in {} still rises 8 lengths of the grid away from it: a larger value may lie \
-             beyond; use a longer grid",
-            probe.name(),
-            body.layer_name(*layer)
+            "fret: warning: {name} in {layer} still rises 8 lengths of the grid away from it: {consequence}"
         ));
     }
 }

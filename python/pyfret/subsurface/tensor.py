@@ -162,6 +162,12 @@ class Stress(Labelled, Figured):
             The layer to look in (default: all). Its number from the surface down, from 0. Or its
             name: "coating", "coating 2", "substrate", or the name of its material, "TiN".
 
+        Raises
+        ------
+        ValueError
+            The measure is unknown, or negative everywhere and 0 far from the contact, as the least
+            principal stress often is.
+
         Warns
         -----
         SceneWarning
@@ -190,6 +196,11 @@ class Stress(Labelled, Figured):
             anywhere=bool(self.dataset.attrs.get("anywhere", 0)),
             **line_of(self.dataset).named(),
         )
+        if rises and extremum is None:
+            raise ValueError(
+                f"{of} is negative below the contact and rises with the distance from it: "
+                'it has no largest value; "von_mises", "tresca" and "s_1" have one'
+            )
         if rises:
             layers_said = " and ".join(layer_name(layer, coatings) for layer in rises)
             warn(
