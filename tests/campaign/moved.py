@@ -182,9 +182,16 @@ def numbers(
     last, number = result.at(-1), drawn.body_number
     d = result.dataset
 
-    # The moment about the place of the contact. About the middle of the grid it includes W's.
+    # Moments about the place of the contact and its displacement. About the middle of the grid they
+    # include the moment of W and the stretch by the bulk stress.
     X, Y = (cells * drawn.cell for cells in drawn.offset)
-    about_contact = {"M_x": d.M_x - d.W * Y, "M_y": d.M_y + d.W * X}
+    stretch = (-1.0 if drawn.exchanged else 1.0) * drawn.bulk / drawn.E[1]
+    about_contact = {
+        "M_x": d.M_x - d.W * Y,
+        "M_y": d.M_y + d.W * X,
+        "delta_x": d.delta_x - stretch * X,
+        "delta_y": d.delta_y + 0.3 * stretch * Y,
+    }
 
     def keep(name: str, value: Any, unit: str, error: Any = 0.0) -> None:
         kept[name] = (float(value), abs(float(error or 0.0)), unit)
@@ -233,7 +240,11 @@ def numbers(
     for measure in LABELS:
         if measure.startswith("interface") and drawn.coating is None:
             continue
-        top = below.maximum(measure)
+        try:
+            top = below.maximum(measure)
+        except ValueError:
+            keep(f"largest {measure}", np.nan, "Pa")
+            continue
         keep(f"largest {measure}", top.value, "Pa", top.error)
         keep(f"depth of largest {measure}", top.z, "m", 0.1 * top.z + drawn.scale * 3e-6)
     substrate = [None, STEEL] if drawn.coating is not None else STEEL
@@ -304,8 +315,9 @@ def compared(
                 # The nominal contact of a map is the whole grid: its mean gap depends on the place.
                 if name in ("mean_gap", "rms_slope") and moved_scene.offset != drawn.offset:
                     continue
-                # Loops are along an axis.
-                if name.startswith("loop: ") and name not in moved:
+                # Loops are along an axis, and of the displacement at the origin.
+                is_stretched = drawn.bulk and moved_scene.offset[0] != drawn.offset[0]
+                if name.startswith("loop: ") and (is_stretched or name not in moved):
                     continue
                 there, error_there = moved.get(name, (np.nan, 0.0))
                 if np.isnan(value) and np.isnan(there):
