@@ -131,9 +131,10 @@ class Assessment:
         scatter: float | None = None,
     ) -> tuple[tuple[float, float, float], tuple[float, float, float], float, list[str]]:
         """
-        Low, best and high margin of a value with an error, and their range of 10 to 90 %.
+        Return the margins of a value with its error (low, best, high) and their range of 10 to 90 %.
 
-        The range has the scatter of the material; `scatter` takes the place of its default.
+        The range has the scatter of the material; `scatter` replaces its default. The other parts are the
+        ratio of this scatter, and notes.
         """
     def safety_factor(self, /, value: float) -> float:
         """Factor by which the history may grow until the limit, for values of the criterion."""
@@ -2559,7 +2560,7 @@ class Profile:
         """Return the same value everywhere."""
     @staticmethod
     def exponential(*, top: float, bottom: float) -> Profile:
-        """Return top (bottom/top)^s, both of one sign."""
+        """Return top (bottom/top)^s over the depth s from 0 to 1, both of one sign."""
     @staticmethod
     def linear(*, top: float, bottom: float) -> Profile:
         """Return top + (bottom - top) s."""

@@ -48,6 +48,7 @@ impl Averaging {
         }
     }
 
+    /// Whether the region is a disc around the point, not a line into the depth.
     fn is_disc(self) -> bool {
         matches!(self, Self::Area | Self::Volume)
     }
@@ -64,8 +65,8 @@ pub struct Distance {
     pub layer: usize,
 }
 
-/// Judges the mean stress below every place of a line. The result is `None` at places nearer to the
-/// border of the grid than the region reaches.
+/// Judges the mean stress below every place of a line. The result is `None` at places nearer to the border of
+/// the grid than the region reaches to the sides.
 pub fn judge_means<J: Judge>(
     site: &Site<'_>,
     line: Line,
@@ -122,7 +123,7 @@ pub fn judge_means<J: Judge>(
     Ok(judgements)
 }
 
-/// Returns the top of the layer \[m\]; fails if the distance does not lie in it.
+/// Depth of the top of the layer that is averaged in \[m\]; fails if the distance does not lie in one layer.
 fn layer_top(site: &Site<'_>, distance: &Distance) -> Result<f64, Error> {
     let Distance {
         method,
@@ -155,7 +156,8 @@ fn layer_top(site: &Site<'_>, distance: &Distance) -> Result<f64, Error> {
     Ok(top)
 }
 
-/// Adds the mean in the plane of a section, below the depth `top`.
+/// Adds the mean over the region (method, length L, layer) below the depth `top` to `mean`, times the weight
+/// `share`.
 fn add_mean(
     site: &Site<'_>,
     line: Line,

@@ -101,10 +101,12 @@ impl CriterionJudge {
 impl Judge for CriterionJudge {
     type Judgement = PointResult;
 
+    /// Whether the layer has a material for the criterion.
     fn judges(&self, layer: usize) -> bool {
         self.assessment(layer).is_some()
     }
 
+    /// Evaluates the criterion on the histories of points in a layer; the depths do not matter.
     fn judge(
         &self,
         layer: usize,
@@ -118,6 +120,7 @@ impl Judge for CriterionJudge {
         evaluate(&assessment.criterion, history, &self.search, stop).map_err(from_fatigue)
     }
 
+    /// Whether the criterion of any layer takes plastic strain.
     fn takes_strain(&self) -> bool {
         let mut criteria = self
             .assessments
@@ -154,6 +157,7 @@ impl Judge for CriterionJudge {
         Err(Error::invalid("criterion", strained.name(), allowed))
     }
 
+    /// The value of the criterion: the larger, the worse.
     fn score(&self, found: &PointResult) -> f64 {
         found.value
     }

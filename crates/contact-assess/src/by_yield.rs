@@ -19,16 +19,19 @@ pub struct YieldJudge {
     /// Residual stress of the layers, which does not grow with the load.
     pub residual: ResidualStress,
     /// The factor by which points are ranked.
-    pub factor: fn(&Yield) -> f64,
+    pub safety_factor: fn(&Yield) -> f64,
 }
 
 impl Judge for YieldJudge {
     type Judgement = Yield;
 
+    /// Whether the layer has a yield stress.
     fn judges(&self, layer: usize) -> bool {
         self.s_y.get(layer).is_some_and(Option::is_some)
     }
 
+    /// Load factors of yield and shakedown at points of a layer at the depths `z` \[m\], with the residual
+    /// stress there.
     fn judge(
         &self,
         layer: usize,
@@ -54,7 +57,8 @@ impl Judge for YieldJudge {
         Ok(factors)
     }
 
+    /// Utilisation: the inverse of the safety factor.
     fn score(&self, found: &Yield) -> f64 {
-        1.0 / (self.factor)(found)
+        1.0 / (self.safety_factor)(found)
     }
 }

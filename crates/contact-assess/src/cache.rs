@@ -60,8 +60,8 @@ impl StressCache {
             .insert(key, history, 8 * numbers, MOST_HISTORIES);
     }
 
-    /// Prepared points; `make` prepares them where they are not kept. Points whose computation was
-    /// interrupted are prepared again.
+    /// Returns prepared points from the cache; `make` prepares them if they are not there, or if their
+    /// computation was interrupted.
     pub(super) fn points(
         &self,
         key: &StateKey,
@@ -77,7 +77,7 @@ impl StressCache {
         Ok(points)
     }
 
-    /// Moments of a cycle; `make` reads them where they are not kept.
+    /// Returns moments of a cycle from the cache; `make` reads them if they are not there.
     pub(super) fn moments(
         &self,
         which: &[usize],
@@ -95,7 +95,8 @@ impl StressCache {
         Ok(moments)
     }
 
-    /// The borders of moments below a line; `make` finds them where they are not kept.
+    /// Returns the borders of contact and slip below a line at some instants of the cycle, from the cache;
+    /// `make` finds them if they are not there.
     pub(super) fn borders(
         &self,
         key: (Line, StateKey),
@@ -114,24 +115,28 @@ impl StressCache {
 struct Shelf<K, V>(Mutex<Vec<(K, Arc<V>, usize)>>);
 
 impl<K, V> Default for Shelf<K, V> {
+    /// An empty shelf.
     fn default() -> Self {
         Self(Mutex::default())
     }
 }
 
 impl<K: PartialEq, V> Shelf<K, V> {
+    /// The value of a key, if it is kept.
     fn get(&self, key: &K) -> Option<Arc<V>> {
         let values = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let entry = values.iter().find(|(k, ..)| k == key)?;
         Some(Arc::clone(&entry.1))
     }
 
+    /// Forgets the value of a key.
     fn remove(&self, key: &K) {
         let mut values = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         values.retain(|(k, ..)| k != key);
     }
 
-    /// Inserts a value of a `size`; one larger than the bound `most` is not kept.
+    /// Keeps a value of a `size` \[bytes\], and drops the oldest ones beyond `most` bytes in all. A value
+    /// larger than `most` is not kept.
     fn insert(&self, key: K, value: &Arc<V>, size: usize, most: usize) {
         if size > most {
             return;

@@ -57,7 +57,8 @@ pub(super) struct Climb<'a, J> {
 }
 
 impl<J: Judge> Climb<'_, J> {
-    /// The tops of the samples over the depths, the worst first, with their scores.
+    /// Places and scores of the worst samples: the largest over the line at each depth, where it is largest
+    /// over depth, too; at most [`HILLS`], the worst first.
     pub(super) fn hills(&self, judged: &Judged<J::Judgement>) -> Vec<(Place, f64)> {
         let tops: Vec<(Place, f64)> = judged
             .depths
@@ -82,7 +83,7 @@ impl<J: Judge> Climb<'_, J> {
         hills
     }
 
-    /// The judgement of a sample.
+    /// The judgement of the sample nearest to a place.
     pub(super) fn judgement_of_sample(
         &self,
         judged: &Judged<J::Judgement>,
@@ -103,6 +104,8 @@ impl<J: Judge> Climb<'_, J> {
         self.site.cache.borders(key, || self.find_borders(&which))
     }
 
+    /// Finds the crossings of the line with the borders of some moments. Crossings closer together than half of
+    /// [`ON_BORDER`] cells count once.
     fn find_borders(&self, which: &[usize]) -> Result<Vec<Border>, Error> {
         let moments = self.site.moments(which)?;
         let mut borders: Vec<Border> = Vec::new();
@@ -121,7 +124,7 @@ impl<J: Judge> Climb<'_, J> {
         Ok(borders)
     }
 
-    /// The borders beside which the samples of the surface are worst, as places.
+    /// Places on the surface at the borders beside which the samples are worst.
     pub(super) fn worst_borders(
         &self,
         borders: &[Border],
@@ -153,8 +156,8 @@ impl<J: Judge> Climb<'_, J> {
             .collect()
     }
 
-    /// Numbers of all moments of the cycle, or of a long one of the moments whose stresses at a
-    /// place differ most.
+    /// Numbers of the moments of the cycle that are followed. Of a long cycle these are the ones whose stresses
+    /// at a place differ most.
     pub(super) fn representative_moments(&self, place: Place) -> Result<Vec<usize>, Error> {
         let count = self.site.cycle.count();
         let all_moments: Vec<usize> = (0..count).collect();
@@ -184,8 +187,8 @@ impl<J: Judge> Climb<'_, J> {
         Ok(chosen)
     }
 
-    /// Ascends from a place. Returns the top, and the drop of the score at the last steps along the
-    /// line and in depth.
+    /// Ascends from a place with a score, in first steps `first` along the line and in depth, between two
+    /// depths. Returns the top, and how far the score falls at the last steps in both directions.
     pub(super) fn ascend(
         &self,
         points: &PreparedPoints,
@@ -248,7 +251,8 @@ impl<J: Judge> Climb<'_, J> {
         Ok((place, drops))
     }
 
-    /// The places at this distance beyond the samples. The stress is known there as well.
+    /// The distances s at the length `beyond` before the first sample and after the last; the stress is known
+    /// there as well.
     fn ends_beyond(&self, beyond: f64) -> [f64; 2] {
         let reach = self.line.places(self.site.grid);
         let (first, last) = (reach[0], reach[reach.len() - 1]);
@@ -285,6 +289,7 @@ impl<J: Judge> Climb<'_, J> {
         Ok(scores.map(|far| far - score).fold(0.0, f64::max))
     }
 
+    /// Scores of the judgements at some places.
     pub(super) fn scores(
         &self,
         prepared: &PreparedPoints,
@@ -298,6 +303,7 @@ impl<J: Judge> Climb<'_, J> {
         Ok(judgements.iter().map(|f| self.judge.score(f)).collect())
     }
 
+    /// Judges the histories of points in the layer.
     pub(super) fn judge_points(
         &self,
         points: &[Point],
@@ -308,9 +314,9 @@ impl<J: Judge> Climb<'_, J> {
             .judge(self.layer, &z, &history.view(), &self.site.stop)
     }
 
-    /// The largest change of a score by tractions on cells twice as large, paired in both ways. A
-    /// place on a border is a maximum among the borders of all moments, so it is compared with the
-    /// maximum at the borders beside it on the larger cells.
+    /// The largest change of a score by tractions on cells twice as large, for both ways to pair cells; none
+    /// where these have no value. A place on a `border` is the worst of the borders of all moments, so it is
+    /// compared with the worst of the borders beside it on the larger cells.
     pub(super) fn coarser_change(
         &self,
         ([s, z], score): (Place, f64),
@@ -337,8 +343,8 @@ impl<J: Judge> Climb<'_, J> {
         Ok(change)
     }
 
-    /// Distances along the line of the borders beside one on cells twice as large, over all moments;
-    /// the border itself where there are none.
+    /// Distances s of the borders beside one border, on cells twice as large, over all moments; the border
+    /// itself where there are none.
     fn coarser_borders(
         &self,
         border: &Border,
@@ -385,6 +391,7 @@ impl<J: Judge> Climb<'_, J> {
         )
     }
 
+    /// Distance s of a border along the line \[m\].
     fn distance_along(&self, border: &Border) -> f64 {
         self.line.nearest_distance(border.x, border.y)
     }
@@ -394,6 +401,7 @@ impl<J: Judge> Climb<'_, J> {
         self.line.step(self.site.grid)
     }
 
+    /// The point of the layer at the distance s along the line and the depth z \[m\].
     pub(super) fn point(&self, [s, z]: Place) -> Point {
         let depth = Depth {
             z,
@@ -403,7 +411,8 @@ impl<J: Judge> Climb<'_, J> {
     }
 }
 
-/// The crossings of a line with the borders of a moment.
+/// The crossings of a line with the rim of the contact and the border of the stick zone at one moment, from its
+/// tractions and stick cells.
 fn borders_of_moment(
     grid: &Grid,
     [q_x, q_y, p]: &[Array2<f64>; 3],

@@ -25,6 +25,7 @@ impl Strains {
         Self(strains.unwrap_or_default())
     }
 
+    /// Whether there is plastic strain.
     pub(super) fn is_present(&self) -> bool {
         !self.0.is_empty()
     }
@@ -63,7 +64,7 @@ impl History {
         }
     }
 
-    /// Copies the moments `which` from another history that are in it.
+    /// Copies the moments `which` from a history that has just these.
     pub(super) fn copy_moments(&mut self, which: &[usize], source: &Self) {
         for (own, source) in self.fields_mut().into_iter().zip(source.fields()) {
             for (k, now) in which.iter().zip(source.outer_iter()) {

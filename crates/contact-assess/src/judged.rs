@@ -50,7 +50,7 @@ pub struct Judged<F> {
     pub judgements: Vec<Option<Vec<F>>>,
 }
 
-/// Applies judges to the section below a line, all to the same stress.
+/// Applies several judges to the section below a line at some depths, all to the same stress.
 pub fn judge<J: Judge>(
     site: &Site<'_>,
     line: Line,

@@ -23,7 +23,8 @@ pub struct LargestMean {
     pub place: f64,
 }
 
-/// The largest mean along a line; `None` if the region of the mean fits nowhere on the grid.
+/// The largest value of the criterion on the stress averaged over the critical distance, along a line. `None`
+/// if the averaged region fits nowhere on the grid.
 pub fn largest_mean(
     site: &Site<'_>,
     line: Line,
@@ -34,8 +35,8 @@ pub fn largest_mean(
     Ok(largest_at_vertex(&means, &line.places(site.grid)))
 }
 
-/// The error of the largest mean along a line: its change on cells twice as large, the larger one
-/// of two pairings, and the error of the path. NaN if the region fits nowhere on the larger cells.
+/// The error of the largest mean `value` along a line: the larger change on cells twice as large, paired in
+/// both ways, and the error of the path. NaN if the region fits nowhere on the larger cells.
 pub fn error_of_largest_mean(
     site: &Site<'_>,
     line: Line,
@@ -51,8 +52,8 @@ pub fn error_of_largest_mean(
     Ok(COARSE_FACTOR * change + path_error_of(site, value))
 }
 
-/// The errors of the `means` along a line, as [`error_of_largest_mean`] at each place. Between
-/// places the means on larger cells are linear. NaN where there is no mean on one of them.
+/// Error of the mean at each place of the line: the larger change on cells twice as large, paired in both ways,
+/// and the error of the path. NaN where the larger cells have no mean.
 pub fn errors_of_means(
     site: &Site<'_>,
     line: Line,
@@ -76,7 +77,7 @@ pub fn errors_of_means(
     Ok(changes.into_iter().zip(values).map(error).collect())
 }
 
-/// The larger of two; NaN if one is.
+/// The larger of two numbers; NaN if one of them is.
 fn larger_or_nan(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() {
         f64::NAN
@@ -93,7 +94,7 @@ fn path_error_of(site: &Site<'_>, value: f64) -> f64 {
 /// Means and their places on the line \[m\].
 type Means = (Vec<Option<PointResult>>, Vec<f64>);
 
-/// The means on cells twice as large, paired in both ways.
+/// The means along the line on cells twice as large, for both ways to pair the cells.
 fn means_on_coarser(
     site: &Site<'_>,
     line: Line,
@@ -133,24 +134,29 @@ struct CoarserCycle<'a> {
 }
 
 impl CycleSource for CoarserCycle<'_> {
+    /// Number of moments of the fine cycle.
     fn count(&self) -> usize {
         self.cycle.count()
     }
 
+    /// Moments of the fine cycle, averaged onto the larger cells.
     fn moments(&self, which: &[usize]) -> Result<Moments, Error> {
         Ok(self.cycle.moments(which)?.coarsened(self.cells))
     }
 
+    /// The moment before the cycle, averaged onto the larger cells.
     fn start(&self) -> Result<Option<Moments>, Error> {
         Ok(self.cycle.start()?.map(|start| start.coarsened(self.cells)))
     }
 
+    /// None: growth of plastic strain is judged on the fine cells.
     fn yielding(&self) -> Result<Option<Yielding>, Error> {
         self.cycle.yielding()
     }
 }
 
-/// Interpolates linearly between samples; `None` beyond the samples or beside one without a value.
+/// The value of the criterion at the place `at`, linear between the means at `places`; `None` beyond them or
+/// beside a place without a mean.
 fn interpolate(means: &[Option<PointResult>], places: &[f64], at: f64) -> Option<f64> {
     let n = places
         .partition_point(|place| *place < at)
@@ -161,8 +167,7 @@ fn interpolate(means: &[Option<PointResult>], places: &[f64], at: f64) -> Option
     Some((1.0 - part) * low? + part * high?)
 }
 
-/// The largest mean, at the vertex of the parabola through the largest sample and the two beside
-/// it.
+/// The largest mean along a line: the vertex of the parabola through the largest sample and the two beside it.
 fn largest_at_vertex(means: &[Option<PointResult>], along: &[f64]) -> Option<LargestMean> {
     let value = |n: usize| means[n].map(|found| found.value);
     let judged = (0..means.len()).filter(|n| value(*n).is_some_and(|value| !value.is_nan()));

@@ -33,6 +33,7 @@ pub(super) struct PreparedPoints {
 /// A point by the bits of its numbers.
 type PointKey = ([u64; 3], usize);
 
+/// The key of a point, from the bits of its coordinates.
 fn key_of(&(x, y, depth): &Point) -> PointKey {
     ([x, y, depth.z].map(f64::to_bits), depth.layer)
 }

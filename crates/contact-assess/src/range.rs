@@ -109,8 +109,8 @@ pub fn margin_range<E: From<Error>>(
     })
 }
 
-/// Writes a note on a mean that goes deeper than half the width of the contact. Stresses below a
-/// contact fall within this depth.
+/// A note if the mean over L \[m\] goes deeper than half the width of the contact, over which stresses decay;
+/// none otherwise.
 fn note_on_depth(L: f64, half_width: f64) -> Option<String> {
     let um = |x: f64| short(1e6 * x);
     (half_width > 0.0 && 2.0 * L > half_width).then(|| {
@@ -124,8 +124,8 @@ fn note_on_depth(L: f64, half_width: f64) -> Option<String> {
     })
 }
 
-/// Writes a note on a life that ends beyond the tests, or whose range is wider than [`WIDE`] by its
-/// distance.
+/// A note on a life that ends beyond the tests, or whose range is wider than [`WIDE`] by its distance; none
+/// otherwise.
 fn note_on_width(assessment: &Assessment, of: &LifeRange) -> Option<String> {
     let Range { low, high, .. } = of.range;
     if !assessment.gives_lives() || of.stress.best.is_infinite() {

@@ -74,7 +74,8 @@ impl Site<'_> {
         Ok(())
     }
 
-    /// The histories of the loads at depths below a line, with the plastic strain if `strain`.
+    /// The histories of the stress by the loads, without residual stress, on a line at some depths; with the
+    /// plastic strain if `strain`.
     fn histories_of_loads(
         &self,
         (line, along): (Line, &[f64]),
@@ -150,6 +151,7 @@ impl Site<'_> {
         })
     }
 
+    /// Prepares the stress of the loads at points under moments on a grid, whose middle lies at `middle` \[m\].
     fn prepare_on(
         &self,
         grid: &Grid,

@@ -45,7 +45,8 @@ pub(super) struct Beyond {
 }
 
 impl Beyond {
-    /// Extrapolates the answers at the highest harmonic that is solved, at least 1.
+    /// Extrapolates the harmonics beyond the highest one that is solved, by the local law of fast changes in
+    /// each cell.
     pub(super) fn new(
         bodies: [&Layers; 2],
         grid: &Grid,
@@ -94,9 +95,14 @@ impl Beyond {
         })
     }
 
-    /// Puts the harmonics above `solved` into the series of a cell of a body, and Lanczos' factors
-    /// on all.
-    pub(super) fn add(&self, body: usize, cell: usize, solved: usize, series: &mut [Complex64]) {
+    /// Fills the unsolved harmonics of a cell by the local law, and damps all by Lanczos factors.
+    pub(super) fn fill_and_window(
+        &self,
+        body: usize,
+        cell: usize,
+        solved: usize,
+        series: &mut [Complex64],
+    ) {
         if let Some([g, e]) = self.local[body][cell] {
             let inverse = |n: f64| {
                 let root = (n / 2.0).sqrt();

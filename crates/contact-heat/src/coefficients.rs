@@ -33,7 +33,8 @@ const NEAR_DISTANCE: f64 = 8.0;
 /// \[bytes\].
 const NUMBERS: f64 = 64.0;
 
-/// The coefficients on the non-negative offsets \[m^2 K/W\], shape (nx, ny).
+/// Temperature of a cell under unit flux on another at the angular frequency w \[1/s\], on the offsets >= 0
+/// \[m^2 K/W\], shape (nx, ny).
 pub(super) fn coefficients(body: &Layers, grid: &Grid, w: f64) -> Result<Array2<Complex64>, Error> {
     fits(
         "the temperature coefficients",
@@ -73,7 +74,7 @@ pub(super) fn coefficients(body: &Layers, grid: &Grid, w: f64) -> Result<Array2<
     Ok(coefficients)
 }
 
-/// The smooth part over the cell at an offset.
+/// The tabulated part of the response, integrated over the cell at an offset.
 fn over_cell(table: &RadialTable<2>, grid: &Grid, (i, j): (usize, usize), zeta: f64) -> Complex64 {
     let cell = Cell {
         x: i as f64 * grid.dx,
@@ -89,7 +90,7 @@ fn over_cell(table: &RadialTable<2>, grid: &Grid, (i, j): (usize, usize), zeta: 
     sum
 }
 
-/// Coefficients of the half-space of the outermost material.
+/// The coefficients of the half-space of the outermost material.
 fn half_space(body: &Layers, grid: &Grid, w: f64) -> Array2<Complex64> {
     let material = body.outermost();
     let l = plane_decay_squared(material, w).sqrt();

@@ -39,6 +39,7 @@ impl Conduction {
         Ok(Self::from_coefficients(coefficients(body, grid, w)?))
     }
 
+    /// Plans the convolution with complex coefficients.
     fn from_coefficients(coefficients: Array2<Complex64>) -> Self {
         let scalar = |part: fn(&Complex64) -> f64| {
             let zz = coefficients.map(part);
@@ -62,7 +63,7 @@ impl Conduction {
         self.coefficients[(0, 0)]
     }
 
-    /// The temperature that a flux causes.
+    /// The temperature of the cells \[K\] that a flux \[W/m^2\] causes.
     ///
     /// # Panics
     /// If the flux does not have nx ny entries.
@@ -84,7 +85,7 @@ impl Conduction {
     }
 }
 
-/// One real convolution; none where the field is zero.
+/// One real convolution; zeros if the field is zero.
 fn convolved(operator: &mut dyn SurfaceOperator, field: &[f64]) -> Vec<f64> {
     let mut result = vec![0.0; field.len()];
     if field.iter().any(|value| *value != 0.0) {

@@ -12,7 +12,7 @@ pub struct Conductor {
 }
 
 impl Conductor {
-    /// Fails if a property is out of its range; `key` names its owner.
+    /// Fails if conductivity or heat capacity is out of its range; `key` names the body.
     fn check(&self, key: &str) -> Result<(), Error> {
         for (name, value, unit) in [
             ("conductivity", self.conductivity, "W/(m K)"),

@@ -24,6 +24,7 @@ pub struct Cycle<'a> {
 }
 
 impl Cycle<'_> {
+    /// Fails if the heat of the cycle does not fit the grid, or has no meaning.
     pub(super) fn check(&self, grid: &Grid) -> Result<(), Error> {
         if !(self.frequency > 0.0 && self.frequency.is_finite()) {
             return Err(Error::invalid(
@@ -78,7 +79,7 @@ impl Cycle<'_> {
         amplitude
     }
 
-    /// Contribution of a unit heat of each increment to the amplitude of harmonic n \[1/s\].
+    /// Factors by which the heat of each increment adds to the amplitude of harmonic n \[1/s\].
     pub(super) fn factors(&self, n: usize) -> Vec<Complex64> {
         let starts = std::iter::once(&0.0).chain(self.ends);
         let of_increment = |(start, end): (&f64, &f64)| {

@@ -131,6 +131,7 @@ fn size(a: &[Complex64]) -> f64 {
     a.iter().map(Complex64::norm_sqr).sum::<f64>().sqrt()
 }
 
+/// to += factor what
 fn add_scaled(to: &mut [Complex64], factor: Complex64, what: &[Complex64]) {
     for (to, what) in to.iter_mut().zip(what) {
         *to += factor * what;

@@ -38,7 +38,8 @@ pub(super) fn one_minus_exp(z: Complex64) -> Complex64 {
     )
 }
 
-/// Y, and Y less the Y of the half-space of the outermost material \[m^2 K/W\].
+/// The surface response Y of the layers at wave number k and angular frequency w, and Y less the response of
+/// the half-space of the outermost material \[m^2 K/W\].
 fn both(body: &Layers, k: f64, w: f64) -> (Complex64, Complex64) {
     let below = body.substrate.conductivity * decay(body.substrate, k, w);
     let (mut conducts, mut rest) = (below, Complex64::ZERO);

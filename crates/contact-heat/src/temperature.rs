@@ -94,7 +94,7 @@ pub fn temperature(
     Ok(found)
 }
 
-/// The series of the harmonics at the instants of a cycle.
+/// Sums the harmonics at the instants of a cycle: temperature of both surfaces over time.
 fn over_time(
     answers: &[Partition],
     beyond: Option<&Beyond>,
@@ -121,7 +121,7 @@ fn over_time(
                 *amplitude = 2.0 * swing.rise[body][cell];
             }
             if let Some(beyond) = beyond {
-                beyond.add(body, cell, swings.len(), &mut series);
+                beyond.fill_and_window(body, cell, swings.len(), &mut series);
             }
             transform.process(&mut series);
             series

@@ -50,7 +50,8 @@ impl CattaneoMindlin {
         (1.0 - T.abs() / limit).max(0.0).cbrt()
     }
 
-    /// Friction's limit on a disc: mu p_s(r) \[Pa\] for s = `ratio` a.
+    /// Shear at the limit of friction under the Hertz pressure of a smaller disc of radius s = `ratio` a, mu p0
+    /// ratio sqrt(1 - r^2/s^2) \[Pa\]; zero outside of it.
     fn disc(&self, ratio: f64, r: f64) -> f64 {
         let (r, s) = (r.abs(), ratio * self.hertz.a);
         if r < s {

@@ -64,6 +64,7 @@ pub fn coupled_indentation(beta: f64, mu: f64) -> CoupledIndentation {
 }
 
 impl Rates {
+    /// Sets up the equations for the stick ratio c.
     fn new(beta: f64, mu: f64, c: f64) -> Self {
         let edges = graded(c);
         let n = edges.len() - 1;
@@ -127,6 +128,7 @@ impl Rates {
         line(at, at + 1) - line(at - 1, at - 2)
     }
 
+    /// The numbers of the solution at the stick ratio c.
     fn summary(&self, c: f64) -> CoupledIndentation {
         let cells = || (0..self.f.len()).map(|i| (i, self.middle(i)));
         // f is even: its value in the middle from the first two cells.

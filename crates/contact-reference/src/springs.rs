@@ -59,7 +59,7 @@ impl Springs {
         self.delta_x
     }
 
-    /// One step: a spring that comes to bear within it has moved freely until then.
+    /// Goes to the forces in one step. A spring that comes to bear in it has moved freely until then.
     fn step(&mut self, W: f64, T: f64) {
         let before = self.delta_z;
         let a = (3.0 * W * self.R / (4.0 * self.E_star)).cbrt();

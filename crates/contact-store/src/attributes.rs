@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 
 use super::schema::{CONVENTIONS, DOUBTS, SCHEMA};
 
-/// Description of a run: scene, plan, scales, status.
+/// The attributes of a store when a run begins: scene, plan, scales for dimensionless results, status.
 pub fn group_attributes(scene: &Scene, plan: &Plan) -> Map<String, Value> {
     let plan: Vec<_> = plan.lines.iter().map(ToString::to_string).collect();
     let mut attributes = Map::new();
@@ -38,8 +38,8 @@ pub fn group_attributes(scene: &Scene, plan: &Plan) -> Map<String, Value> {
 /// one of the two documents that hold them is written.
 pub(super) const END_ATTRIBUTES: [&str; 4] = ["status", "path_error", DOUBTS, "error_bars"];
 
-/// Adds the results of the end of a run: its status, the errors of its shear, and the doubts about
-/// it.
+/// Adds what is known at the end of a run to its attributes: status, errors of the shear at the ends of the
+/// branches, and doubts. `failure` is the error that ended it, if any.
 pub(super) fn conclude(
     attributes: &mut Map<String, Value>,
     scene: &Scene,

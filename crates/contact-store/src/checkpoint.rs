@@ -75,7 +75,8 @@ impl Checkpoints {
         Self::open(folder, scene, true)
     }
 
-    /// Opens the file of increments, and creates it if `new`.
+    /// Opens the file that increments are appended to, and creates it if `new`; a lock keeps other processes
+    /// out.
     fn open(folder: &Arc<Folder>, scene: &str, new: bool) -> Result<Self, Error> {
         let failed = |e: io::Error| folder.error(&format!("{INCREMENTS}: {e}"));
         let increments = OpenOptions::new()
@@ -103,7 +104,7 @@ impl Checkpoints {
         Self { folder, ..self }
     }
 
-    /// Finds the newest whole checkpoint of a run of the scene.
+    /// Finds the newest whole checkpoint of a run of the scene: state, increments, and the file to continue.
     pub(super) fn find(folder: &Arc<Folder>, scene: &str) -> Result<Found, Error> {
         let mut checkpoints = Self::open(folder, scene, false)?;
         let log = checkpoints.read(INCREMENTS)?.unwrap_or_default();
@@ -204,6 +205,7 @@ impl Checkpoints {
             .map_err(|e| self.folder.error(&format!("{INCREMENTS}: {e}")))
     }
 
+    /// The bytes of a file of checkpoints; none if there is no such file.
     fn read(&self, name: &str) -> Result<Option<Vec<u8>>, Error> {
         self.folder
             .read(name)
@@ -211,7 +213,7 @@ impl Checkpoints {
     }
 }
 
-/// Magic, head, state, CRC-32.
+/// Writes a checkpoint: magic number, head, state, checksum (CRC-32).
 fn encode(head: &Head, state: &State, file: &File) -> io::Result<()> {
     let mut to = ChecksumWriter {
         output: BufWriter::new(file),
@@ -232,7 +234,8 @@ fn encode(head: &Head, state: &State, file: &File) -> io::Result<()> {
 pub(super) const OTHER_LAYOUT: &str = "is of another layout than this version writes: what has been \
     solved can be read, but to go on, run the scene anew";
 
-/// Returns the state and its increments, or the reason why they are not valid.
+/// Reads a checkpoint and the increments that belong to it from the `log`; the error is why they are not valid.
+/// `scene` is the checksum of the scene that they must have.
 fn decode(bytes: &[u8], scene: u32, log: &[u8]) -> Result<(Head, State, Vec<Increment>), String> {
     let damaged = || "is damaged".to_owned();
     let (content, crc) = bytes.split_last_chunk::<CRC>().ok_or_else(damaged)?;
@@ -277,6 +280,7 @@ struct ChecksumWriter<W> {
 }
 
 impl<W: Write> Write for ChecksumWriter<W> {
+    /// Writes and updates checksum and length.
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match self.output.write(bytes) {
             Ok(written) => {

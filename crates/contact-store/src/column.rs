@@ -26,6 +26,7 @@ pub(super) struct Column {
 }
 
 impl Column {
+    /// An empty column with its description; `words` are unit and meaning, `dim` its dimension.
     pub(super) fn new(
         name: &'static str,
         kind: Kind,

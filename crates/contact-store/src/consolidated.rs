@@ -35,7 +35,7 @@ pub(super) struct Consolidated {
 }
 
 impl Consolidated {
-    /// The content of the file.
+    /// The content of the file: all metadata documents, with checksums of the chunks.
     pub(super) fn encode(&self) -> String {
         let words = |sums: &Vec<u32>| {
             let words: Vec<_> = sums.iter().map(|sum| format!("{sum:08x}")).collect();
@@ -58,8 +58,8 @@ impl Consolidated {
         [&text, TAIL.0, &format!("{crc:08x}"), TAIL.1].concat()
     }
 
-    /// The contents of the file, and whether it is complete. An error if it is no consolidated
-    /// metadata.
+    /// Reads the content of the file. Returns it, and whether the file is complete; the error is why it is no
+    /// consolidated metadata.
     pub(super) fn decode(bytes: &[u8]) -> Result<(Self, bool), String> {
         let mut value: Value = serde_json::from_slice(bytes).map_err(|e| e.to_string())?;
         let Value::Object(documents) = value["metadata"].take() else {
@@ -90,7 +90,7 @@ impl Consolidated {
     }
 }
 
-/// Checks that the bytes end in the checksum of the preceding ones.
+/// Whether the bytes end in the checksum of the ones before.
 fn is_whole(bytes: &[u8]) -> bool {
     let (before, after) = (TAIL.0.as_bytes(), TAIL.1.as_bytes());
     let Some(content) = bytes.strip_suffix(after) else {

@@ -21,7 +21,7 @@ pub fn write_error_bars(path: impl AsRef<Path>, bars: &[ErrorBars]) -> Result<()
     })
 }
 
-/// Converts the error bars of a run on a grid to attributes, by the names of its variables.
+/// Converts the error bars of the branches of a run to an attribute: lists by the names of the variables.
 pub(super) fn to_attributes(bars: &[ErrorBars], grid: &Grid) -> Value {
     let mut attributes = json!(bars);
     if grid.plane_strain {
@@ -57,7 +57,7 @@ pub(super) fn doubt_bars(attributes: &mut Map<String, Value>, why: &Error) -> St
     doubt
 }
 
-/// Changes the attributes of a store whose run is done.
+/// Changes the attributes of a store whose run is done, and writes the metadata again.
 fn change_attributes(path: &Path, change: impl FnOnce(&mut Value)) -> Result<(), Error> {
     let store = Store::open(path)?;
     let folder = Folder::new(path);

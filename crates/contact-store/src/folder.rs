@@ -71,8 +71,8 @@ impl Folder {
         written.map_err(|e| self.error(&format!("{key}: {e}")))
     }
 
-    /// Writes a file of an existing folder by `content`, as [`Self::write`]. The file is on the
-    /// disk before this returns, so that a power failure leaves either the old file or the new one.
+    /// Writes a file of an existing folder by `content`, beside it and then renamed. The file is on the disk
+    /// before this returns, so that after a power failure there is either the old file or the new one.
     pub(super) fn write_durably(
         &self,
         key: &str,
@@ -114,7 +114,7 @@ impl Folder {
     }
 }
 
-/// Renames a file to its final name; a file that is not complete is removed.
+/// Renames a file to its final name if it was `written`; otherwise removes it and returns the error.
 fn rename_or_remove(unfinished: &Path, path: &Path, written: io::Result<()>) -> io::Result<()> {
     let renamed = written.and_then(|()| fs::rename(unfinished, path));
     if renamed.is_err() {
@@ -134,6 +134,7 @@ impl ReadableStorageTraits for Folder {
         Ok(bytes.map(Bytes::from))
     }
 
+    /// Reads ranges of bytes of a file.
     fn get_partial_many<'a>(
         &'a self,
         key: &StoreKey,
@@ -148,6 +149,7 @@ impl ReadableStorageTraits for Folder {
         )))
     }
 
+    /// Size of a file \[bytes\]; none if there is no such file.
     fn size_key(&self, key: &StoreKey) -> Result<Option<u64>, StorageError> {
         match fs::metadata(self.root.join(key.as_str())) {
             Ok(metadata) => Ok(Some(metadata.len())),
@@ -174,6 +176,7 @@ impl WritableStorageTraits for Folder {
         store_set_partial_many(self, key, offset_values)
     }
 
+    /// Removes a file, if it is there.
     fn erase(&self, key: &StoreKey) -> Result<(), StorageError> {
         match fs::remove_file(self.root.join(key.as_str())) {
             Err(e) if e.kind() != io::ErrorKind::NotFound => Err(storage_error(e)),

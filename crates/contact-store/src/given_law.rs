@@ -3,7 +3,8 @@
 use contact_core::Error;
 use contact_core::scene::{Scene, UserFriction, missing_law_error};
 
-/// Returns the scene of a store with the friction law that is given for it.
+/// The scene of a store with its friction law, which no store can hold: given again if it has one. Fails if one
+/// is missing or not expected.
 pub(super) fn with_law(scene: &Scene, law: Option<&UserFriction>) -> Result<Scene, Error> {
     let mut scene = scene.clone();
     match (&scene.friction.law, law) {

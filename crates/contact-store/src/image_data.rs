@@ -33,8 +33,8 @@ pub struct ImageData {
 }
 
 impl ImageData {
-    /// Begins `path`, for `probes` at the middles of the cells of the grid and at `depths`,
-    /// which must be evenly spaced. Fails if there is something at `path`.
+    /// Begins the file `path` for `probes` at the centres of the cells and at the `depths`, which must be
+    /// evenly spaced. Fails if there is a file already.
     pub fn create(
         path: impl AsRef<Path>,
         grid: &Grid,
@@ -87,6 +87,7 @@ impl ImageData {
 }
 
 impl VolumeSink for ImageData {
+    /// Writes the values of a probe at a depth to their place in the file.
     fn put(&self, probe: usize, depth: usize, values: &Array2<f64>) -> Result<(), Error> {
         let (nx, ny, nz) = self.shape;
         let plane = if self.upwards { nz - 1 - depth } else { depth };
@@ -114,6 +115,7 @@ fn block_length((nx, ny, nz): (usize, usize, usize)) -> u64 {
     (nx * ny * nz * 4) as u64
 }
 
+/// An error of the file at `path`.
 fn file_error(path: &Path, message: impl std::fmt::Display) -> Error {
     Error::File {
         path: path.display().to_string(),
@@ -121,7 +123,7 @@ fn file_error(path: &Path, message: impl std::fmt::Display) -> Error {
     }
 }
 
-/// Distance of the depths, one metre for a single one.
+/// Distance of the depths \[m\]; 1 for a single depth. Fails if they are not evenly spaced.
 fn spacing(depths: &[Depth]) -> Result<f64, Error> {
     let [first, .., last] = depths else {
         return match depths.len() {
@@ -143,6 +145,7 @@ fn spacing(depths: &[Depth]) -> Result<f64, Error> {
     Ok(step)
 }
 
+/// The XML before the numbers.
 fn header(
     grid: &Grid,
     (first, spacing): (f64, f64),

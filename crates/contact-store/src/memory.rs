@@ -54,6 +54,7 @@ impl Columns {
         self.scalars = SCALARS.iter().map(|_| Vec::new()).collect();
     }
 
+    /// Keeps the fields of an increment.
     fn keep(&mut self, index: usize, t: f64, fields: &Fields) {
         self.saved.push((index, t));
         if let Some(yielded) = &fields.yielded {
@@ -81,6 +82,7 @@ impl Columns {
 }
 
 impl Observer for Columns {
+    /// Keeps the scalars of an increment, and its fields if the scene asks for them.
     fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error> {
         if self.scalars.is_empty() {
             self.begin(march);
@@ -98,7 +100,7 @@ impl Observer for Columns {
         Ok(())
     }
 
-    /// The last increment always keeps its fields.
+    /// Keeps the fields of the last increment in any case, and completes the attributes.
     fn on_end(&mut self, march: &March, failure: Option<&Error>) -> Result<(), Error> {
         let (index, saved) = (march.state().increments, self.saved.last());
         if failure.is_none()

@@ -57,7 +57,7 @@ pub(super) struct Open {
 }
 
 impl Open {
-    /// A store without an increment; nothing is written yet.
+    /// A store for a run of the scene, with empty columns; nothing is written yet.
     pub(super) fn new(folder: Arc<Folder>, scene: &Scene, plan: &Plan) -> Self {
         let grid = &scene.grid;
         let scalars = SCALARS.iter().map(|s| {
@@ -115,8 +115,8 @@ impl Open {
         }
     }
 
-    /// Begins the store. Lays out the group, without a variable, and the place of the checkpoints,
-    /// and moves it to its place. If `replace`, it replaces an old store.
+    /// Creates the folder, with the group but without a variable, and a place for checkpoints, and moves it to
+    /// its final place. If `replace`, an old store there is replaced.
     pub(super) fn begin(&mut self, replace: bool) -> Result<(), Error> {
         let unfinished = PendingFolder::begin(self.folder.root())?;
         let final_folder = std::mem::replace(&mut self.folder, unfinished.folder().clone());
@@ -170,6 +170,7 @@ impl Open {
         }
     }
 
+    /// Appends an increment to the columns.
     pub(super) fn append(&mut self, increment: &Increment) -> Result<(), Error> {
         self.append_scalars(increment);
         match &mut self.checkpoints {
@@ -178,6 +179,7 @@ impl Open {
         }
     }
 
+    /// Appends the scalars of an increment.
     fn append_scalars(&mut self, increment: &Increment) {
         for (column, scalar) in self.scalars.iter_mut().zip(SCALARS) {
             column.push((scalar.value)(increment));
@@ -236,7 +238,7 @@ impl Open {
         Ok(())
     }
 
-    /// Counts the fields of an increment among those that are saved.
+    /// Notes that the fields of an increment are saved: its index and path time.
     fn count_saved(&mut self, index: usize, point: &LoadPoint) {
         self.saved += 1;
         self.saved_increment = index;
@@ -285,6 +287,7 @@ impl Open {
         Ok(())
     }
 
+    /// The metadata documents of the group.
     fn group_documents(&self) -> Map<String, Value> {
         let mut documents = Map::new();
         documents.insert(".zgroup".into(), json!({ "zarr_format": 2 }));

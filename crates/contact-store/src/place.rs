@@ -42,7 +42,8 @@ pub(super) struct PendingFolder {
 }
 
 impl PendingFolder {
-    /// An empty folder beside its place; remains of a killed process are removed.
+    /// Creates and locks the empty folder beside its place. Remains of a killed process are removed. A store
+    /// that was to be replaced is kept, if its successor never came.
     pub(super) fn begin(place: &Path) -> Result<Self, Error> {
         let folder = Folder::with_final_place(place, hidden_sibling(place, "unfinished"));
         if place.file_name().is_none() {
@@ -72,7 +73,7 @@ impl PendingFolder {
         &self.folder
     }
 
-    /// Moves the folder to its place. There must be nothing, or, if `replace`, a store that no
+    /// Moves the folder to its place. There must be nothing at that place or, if `replace`, a store that no
     /// process writes.
     pub(super) fn finish(mut self, replace: bool) -> Result<Arc<Folder>, Error> {
         let failed = |e: io::Error| {
@@ -110,6 +111,7 @@ impl PendingFolder {
 }
 
 impl Drop for PendingFolder {
+    /// Removes the folder if it was never finished.
     fn drop(&mut self) {
         if !self.in_place {
             // Nothing can be done if it stays.
@@ -145,7 +147,8 @@ pub(super) fn check_only_store(store: &Path) -> Result<(), Error> {
     Err(folder.error(&message))
 }
 
-/// Finds the first entry of a folder, or of one in it, that does not belong there.
+/// The first entry in a folder, or in a folder in it, whose name does not belong in a store; none if all
+/// belong.
 fn find_foreign(path: &Path, belongs: impl Fn(&OsStr) -> bool) -> io::Result<Option<PathBuf>> {
     for entry in fs::read_dir(path)? {
         let entry = entry?;
@@ -196,7 +199,7 @@ pub(super) fn restore_moved_store(place: &Path) {
     }
 }
 
-/// Removes the remains of a killed process at `path`.
+/// Removes what a killed process has left at `path`, unless another process holds its lock.
 fn clear(folder: &Folder, path: &Path) -> Result<(), Error> {
     if fs::symlink_metadata(path).is_err() {
         return Ok(());

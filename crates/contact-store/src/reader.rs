@@ -45,6 +45,7 @@ impl Store {
         Self::from_metadata(folder, consolidated)
     }
 
+    /// A store with this metadata; fails if it has no scene, or more increments than the path of the scene.
     fn from_metadata(folder: Arc<Folder>, consolidated: Consolidated) -> Result<Self, Error> {
         let damaged = |e: &dyn std::fmt::Display| folder.error(&format!("{FILE} is damaged: {e}"));
         let attributes = consolidated.document(".zattrs");
@@ -139,7 +140,7 @@ impl Store {
         self.saved
     }
 
-    /// A variable over `increment`, `saved`, `x` or `y`.
+    /// The values of a variable over `increment`, `saved`, `x` or `y`.
     pub fn column(&self, name: &str) -> Result<Vec<f64>, Error> {
         let failed = |e: &dyn std::fmt::Display| self.folder.error(&format!("{name}: {e}"));
         let stored = self.array(name)?;
@@ -152,7 +153,7 @@ impl Store {
         stored.numbers(&stored.whole()).map_err(|e| failed(&e))
     }
 
-    /// A field of the `saved`-th increment whose fields are saved, from 0; a mask is 0 and 1.
+    /// A field of the `saved`-th (from 0) of the increments whose fields are saved. A mask has 0 and 1.
     pub fn field(&self, name: &str, saved: usize) -> Result<Array2<f64>, Error> {
         let failed = |e: &dyn std::fmt::Display| self.folder.error(&format!("{name}: {e}"));
         let stored = self.array(name)?;
@@ -163,8 +164,8 @@ impl Store {
         Array2::from_shape_vec((nx, ny), values).map_err(|e| failed(&e))
     }
 
-    /// The points that have yielded in the increments whose fields are saved: a column for each of
-    /// [`YIELDED`]; none of a run whose bodies stay elastic.
+    /// Columns of the yielded points in all increments whose fields are saved, one for each of [`YIELDED`]; no
+    /// columns if the bodies stay elastic.
     pub(super) fn points(&self) -> Result<Vec<Vec<f64>>, Error> {
         if !self.scene.yields() || self.consolidated.length(YIELDED[0].name) == 0 {
             return Ok(Vec::new());
@@ -190,8 +191,8 @@ impl Store {
         Ok(points)
     }
 
-    /// The plastic state of the increment `increment`, from 1. Empty if nothing has yielded, `None`
-    /// if the bodies of the run stay elastic.
+    /// The plastic state after the increment of a number, from 1. It has no points if nothing has yielded;
+    /// `None` if the bodies stay elastic.
     pub fn yielded(&self, increment: usize) -> Result<Option<Yielded>, Error> {
         if !self.scene.yields() {
             return Ok(None);

@@ -89,7 +89,7 @@ pub fn resume_with_law(
     };
     let kept = (1..=store.increments()).filter(|&index| keeps(index));
     let kept = kept.count().min(store.saved());
-    let points = points_kept(&store, kept)?;
+    let points = columns_of_kept_points(&store, kept)?;
     let metadata = metadata_for_resume(&store, kept, &points)?;
     let mut open = Open::new(store.folder().clone(), scene, march.plan());
     let on_disk = (store.increments(), &metadata.checksums);
@@ -104,8 +104,8 @@ pub fn resume_with_law(
     }))
 }
 
-/// The metadata of a store whose run is resumed, without the fields that were saved because it had
-/// stopped.
+/// The metadata of a store whose run is resumed, cut to the first `kept` saved increments. Fields that were
+/// saved only since the run had stopped are left out.
 fn metadata_for_resume(
     store: &Store,
     kept: usize,
@@ -136,8 +136,8 @@ fn metadata_for_resume(
     Ok(metadata)
 }
 
-/// The points that have yielded in the first `kept` of the increments that keep their fields.
-fn points_kept(store: &Store, kept: usize) -> Result<Vec<Vec<f64>>, Error> {
+/// Columns of the yielded points in the first `kept` of the increments whose fields are saved.
+fn columns_of_kept_points(store: &Store, kept: usize) -> Result<Vec<Vec<f64>>, Error> {
     let mut points = store.points()?;
     let last = match kept.checked_sub(1) {
         Some(last) => store.column("saved_increment")?[last],

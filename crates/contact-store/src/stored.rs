@@ -26,6 +26,7 @@ pub(super) struct Stored<'a> {
 }
 
 impl<'a> Stored<'a> {
+    /// Opens the array `name` with its metadata `zarray`; `checksums` of its chunks, if known.
     pub(super) fn new(
         folder: &Arc<Folder>,
         name: &str,
@@ -65,8 +66,7 @@ impl<'a> Stored<'a> {
             .try_for_each(|chunk| self.check_chunk(chunk))
     }
 
-    /// Fails if a chunk is missing, is larger than its values, or differs from the values that were
-    /// written.
+    /// Fails if a chunk is missing, larger than its values, or differs from its checksum.
     fn check_chunk(&self, chunk: &[u64]) -> Result<(), String> {
         let Some(checksums) = self.checksums else {
             return Ok(());
@@ -105,7 +105,7 @@ impl<'a> Stored<'a> {
         Ok(())
     }
 
-    /// The numbers of a part, converted to f64.
+    /// The numbers in a part of the array, converted to f64.
     pub(super) fn numbers(&self, part: &ArraySubset) -> Result<Vec<f64>, String> {
         self.verify(part)?;
         let array = &self.array;
@@ -126,6 +126,7 @@ struct Sum {
 }
 
 impl Write for Sum {
+    /// Adds bytes to the checksum.
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let count = self.counts.min(bytes.len() as u64);
         self.crc.update(&bytes[..count as usize]);

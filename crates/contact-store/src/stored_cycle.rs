@@ -75,6 +75,7 @@ impl<'a> StoredCycle<'a> {
         self.kept.iter().map(|k| self.increments[*k]).collect()
     }
 
+    /// The moments of the increments at these places among the saved ones.
     fn moments_at(&self, places: &[usize]) -> Result<Moments, Error> {
         let mut moments = Moments::default();
         for &place in places {
@@ -108,18 +109,22 @@ impl CycleSource for StoredCycle<'_> {
         self.moments_at(&places)
     }
 
+    /// The moment before the cycle, if its fields are saved.
     fn start(&self) -> Result<Option<Moments>, Error> {
         self.before
             .map(|place| self.moments_at(&[place]))
             .transpose()
     }
 
+    /// Largest error of the shear at the ends of the branches by the increments; none if these were given.
     fn path_error(&self) -> Option<f64> {
         let errors = self.store.attributes().get("path_error")?.as_array()?;
         let numbers = errors.iter().filter_map(serde_json::Value::as_f64);
         numbers.reduce(f64::max)
     }
 
+    /// The plastic work in the cycle, and the work of friction to compare it with; none if the bodies stay
+    /// elastic.
     fn yielding(&self) -> Result<Option<Yielding>, Error> {
         let kept = self.increments();
         let (Some(first), Some(last), true) =
@@ -149,7 +154,8 @@ impl CycleSource for StoredCycle<'_> {
     }
 }
 
-/// First and last branch of a cycle that the run has completed.
+/// First and last branch of a cycle that the run has completed; `cycle` counts from 0, or from the end if
+/// negative.
 fn find_cycle(store: &Store, branches: &[usize], cycle: i64) -> Result<(usize, usize), Error> {
     let path = &store.scene().path;
     let finished = |(_, last): &(usize, usize)| {

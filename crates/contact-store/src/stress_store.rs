@@ -155,6 +155,7 @@ impl StressStore {
 }
 
 impl VolumeSink for StressStore {
+    /// Writes the values of a probe at a depth.
     fn put(&self, probe: usize, depth: usize, values: &Array2<f64>) -> Result<(), Error> {
         let _one = self.writing.lock().unwrap_or_else(PoisonError::into_inner);
         let (folder, chunk) = (self.unfinished.folder(), [depth as u64, 0, 0]);

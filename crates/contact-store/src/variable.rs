@@ -26,7 +26,7 @@ pub(super) struct Variable {
 impl Kind {
     const ALL: [Self; 4] = [Self::Real, Self::Count, Self::Code, Self::Flag];
 
-    /// The data type of Zarr version 2.
+    /// The data type in Zarr version 2.
     fn dtype(self) -> &'static str {
         match self {
             Self::Real => "<f8",
@@ -41,7 +41,7 @@ impl Kind {
         Self::ALL.into_iter().find(|kind| kind.dtype() == dtype)
     }
 
-    /// Encodes values as in a chunk, little endian.
+    /// Encodes values as in a chunk: little endian, masks as bytes.
     fn encode(self, values: &[f64]) -> Vec<u8> {
         let numbers = values.iter();
         match self {
@@ -68,6 +68,7 @@ impl Kind {
 }
 
 impl Variable {
+    /// A variable with its description, shape and chunks; `words` are unit and meaning.
     pub(super) fn new(
         name: &'static str,
         kind: Kind,
@@ -137,7 +138,7 @@ impl Variable {
         Value::Object(self.attributes.clone())
     }
 
-    /// The content of `.zarray`. Without a fill value, so that no reader takes a zero for a gap.
+    /// The content of `.zarray`. There is no fill value, so that no reader takes a gap for zeros.
     pub(super) fn zarray(&self) -> Value {
         json!({
             "zarr_format": 2,

@@ -59,7 +59,8 @@ pub fn write_volume(
     (0..probes.len()).map(over_depths).collect()
 }
 
-/// Merges the depths of both lists in their order, each once, with the index in the first.
+/// Merges the depths of both lists in their order, each once. Each comes with its index in the first list, if
+/// it is there.
 fn merge_depths(written: &[Depth], between: &[Depth]) -> (Vec<Depth>, Vec<Option<usize>>) {
     let written_depths = written
         .iter()

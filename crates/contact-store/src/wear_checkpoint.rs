@@ -45,7 +45,7 @@ pub(super) fn write_checkpoint(
         .map_err(|e| failed(&e))
 }
 
-/// Reads the state and the blocks, or returns the reason why they cannot be read.
+/// Reads the state of the run and the list of the stored blocks; the error is why they cannot be read.
 pub(super) fn read_checkpoint(folder: &Arc<Folder>) -> Result<(WearState, Kept), Error> {
     let damaged = |why: &str| folder.error(&format!("{CHECKPOINT} {why}"));
     let bytes = folder

@@ -22,6 +22,7 @@ pub struct StoredVariable {
 }
 
 impl StoredVariable {
+    /// A variable of this shape with its values.
     fn new(variable: &Variable, shape: Vec<usize>, values: Vec<f64>) -> Self {
         Self {
             name: variable.name(),

@@ -46,6 +46,8 @@ pub fn resume_wear_with_laws(
 /// The user's laws of wear of each body, and the user's law of friction.
 type OwnLaws<'a> = (&'a [Vec<Arc<dyn Law>>; 2], Option<&'a UserFriction>);
 
+/// Opens a store and its checkpoint, and continues the run with the user's own `laws` and friction. If a scene
+/// and its wear are `expected`, the store must have the same. None if the run is done.
 fn resume_from(
     path: &Path,
     expected: Option<(Scene, Wear)>,

@@ -120,6 +120,7 @@ impl WearStore {
         Ok(())
     }
 
+    /// Writes the metadata of all variables and the attributes with the `status` of the run.
     fn write_documents(
         &self,
         folder: &Arc<Folder>,
@@ -159,7 +160,7 @@ impl WearStore {
     }
 }
 
-/// The scalars of the jumps, the places of the cells, the cycles of the blocks.
+/// The variables of the jumps, the coordinates of the cells, and the cycles of the stored blocks.
 pub(super) fn columns(run: &WearRun, cycles: &[f64]) -> Vec<Column> {
     let (jumps, grid) = (run.history(), &run.scene().grid);
     let scalar = |(name, unit, meaning, value): &Scalar| {
@@ -201,7 +202,7 @@ pub(super) fn clear_checkpoint(folder: &Folder) {
     let _ = std::fs::remove_dir_all(folder.root().join("checkpoint"));
 }
 
-/// The variables over `block`, and the values of a block.
+/// The variables over blocks, each with the values of one `block`; `blocks` is their number so far.
 pub(super) fn fields(run: &WearRun, block: &Block, blocks: usize) -> Vec<(Variable, Vec<f64>)> {
     let grid = &run.scene().grid;
     let (n, nx, ny) = (blocks as u64, grid.nx as u64, grid.ny as u64);
@@ -237,6 +238,7 @@ pub(super) fn fields(run: &WearRun, block: &Block, blocks: usize) -> Vec<(Variab
     fields.chain(friction_loop).collect()
 }
 
+/// The attributes of a store of wear: scene, wear, events, warnings, `status`.
 pub(super) fn attributes(run: &WearRun, status: &str) -> Value {
     let events = run.state().events.iter().map(|e| {
         let kind = match e.kind {

@@ -58,7 +58,7 @@ fn text_has_sums(text: &[u8]) -> bool {
     text.contains("\"checksums\"") || text.contains("\"crc32\"")
 }
 
-/// Fails if a file of the store is missing, or is not as it was written; the error names it.
+/// Checks every document and every chunk; the error names the first file that is missing or damaged.
 pub(super) fn verify(folder: &Arc<Folder>, consolidated: &Consolidated) -> Result<(), Error> {
     for key in [".zgroup", ".zattrs"] {
         check_document(folder, consolidated, key)
@@ -75,7 +75,7 @@ pub(super) fn verify(folder: &Arc<Folder>, consolidated: &Consolidated) -> Resul
     })
 }
 
-/// An array of the store.
+/// Opens an array of the store, with its checksums.
 pub(super) fn array<'a>(
     folder: &Arc<Folder>,
     consolidated: &'a Consolidated,
@@ -95,8 +95,8 @@ pub(super) fn array<'a>(
     Stored::new(folder, name, zarray, checksums)
 }
 
-/// Fails if a document of the group differs from the consolidated metadata, except for how the run
-/// ended. A process may have died between the two.
+/// Fails if a document of the group differs from the consolidated metadata, except in how the run ended: a
+/// process may have died between writing the two.
 fn check_document(folder: &Folder, consolidated: &Consolidated, key: &str) -> Result<(), String> {
     let bytes = folder.read(key).map_err(|e| e.to_string())?;
     let bytes = bytes.ok_or("is missing")?;

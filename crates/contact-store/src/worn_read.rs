@@ -46,8 +46,7 @@ pub fn read_worn(path: impl AsRef<Path>) -> Result<WornStart, Error> {
     })
 }
 
-/// The last entry along the first dimension of an array of real numbers, and the shape of the
-/// array.
+/// The last entry along the first dimension of an array of real numbers: shape and values.
 fn read_last(folder: &Arc<Folder>, name: &str) -> Result<(Vec<u64>, Vec<f64>), Error> {
     let failed = |e: &dyn std::fmt::Display| folder.error(&format!("{name}: {e}"));
     let key = format!("{name}/.zarray");

@@ -94,6 +94,7 @@ impl StoreWriter {
 }
 
 impl Observer for StoreWriter {
+    /// Appends an increment, saves its fields if wanted, and writes a checkpoint if it is time for one.
     fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error> {
         if self.open.is_none() {
             let mut open = Open::new(Folder::new(&self.path), march.scene(), march.plan());

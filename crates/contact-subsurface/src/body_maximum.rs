@@ -262,6 +262,7 @@ fn level(part: f64, largest: f64) -> f64 {
     largest - (1.0 - part) * largest.abs()
 }
 
+/// Values of a measure under the first state at the depths below the section's line, shape (depths, places).
 fn sample_section(
     section: &Section,
     measure: &Measure,
@@ -272,7 +273,8 @@ fn sample_section(
 }
 
 impl LineSamples {
-    /// Starting points of the ascent on the hills of the samples.
+    /// Starting points of the ascent, on the hills of the samples in a layer, or in all; `free` to leave the
+    /// plane of the line.
     fn starts(
         &self,
         search: &Search,
@@ -287,8 +289,8 @@ impl LineSamples {
         hills.iter().flat_map(starts_on_hill).collect()
     }
 
-    /// Adds deeper and deeper samples while the largest are at the deepest depth and rise by more
-    /// than [`FLAT`]. Returns true if they still rise at the limit.
+    /// Adds deeper and deeper samples, while the largest values lie at the deepest depth and rise by more than
+    /// [`FLAT`] from the depth above. Returns true if they still rise at the limit.
     fn extend_down(&mut self, search: &Search, measure: &Measure) -> Result<bool, Error> {
         let (Some(last), false) = (self.depths.last().copied(), measure.on_interfaces) else {
             return Ok(false);

@@ -59,7 +59,8 @@ pub fn borders(
     Ok(find_borders(&continued, grid, line))
 }
 
-/// Finds the borders from continued tractions.
+/// Finds the crossings of a line with rim and stick border in continued tractions; without a line, the crossings of all rows and
+/// columns of cells.
 pub(super) fn find_borders(continued: &Continued, grid: &Grid, line: Option<Line>) -> Vec<Border> {
     let Plane { n, d, .. } = Plane::new(grid, false);
     let [to_column, to_row] =

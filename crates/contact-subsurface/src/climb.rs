@@ -36,8 +36,8 @@ pub(super) fn point_in_layer([x, y, z]: [f64; 3], layer: usize) -> Point {
     (x, y, Depth { z, layer })
 }
 
-/// Ascends from a start with the given value, between two depths of its layer. Returns place, value
-/// and the remaining error along each direction.
+/// Ascends from a start, where the value is `value`, to a maximum between two depths of its layer. Returns the
+/// place (along, across, depth), the value, and the error that remains along each direction.
 pub(super) fn climb(
     values: &Values<'_>,
     start: &Start,
@@ -104,9 +104,9 @@ pub(super) fn climb(
     Ok((place, best, remaining))
 }
 
-/// Finds the vertex of the parabola through a value and values at one or two distances from it. The
-/// vertex is limited to these distances. Returns its distance, and the drop of the parabola at a
-/// third of the distances from it.
+/// Finds the vertex of the parabola through a `value` and its neighbours at one or two `sides` (distance,
+/// value), no farther away than these. Returns its distance, and how far the parabola falls at a third of the
+/// way to the sides.
 fn vertex(value: f64, sides: &[(f64, f64)]) -> (f64, f64) {
     let &[(low, v_low), (high, v_high)] = sides else {
         // At the border of a layer: the value itself is the top, unless the field rises away from

@@ -22,7 +22,7 @@ pub(super) struct CoarserCells {
 }
 
 impl CoarserCells {
-    /// Sets up the cells paired in both ways.
+    /// Averages the first state onto cells twice as large, for both ways to pair the cells.
     pub(super) fn new_pair(
         body: &Body,
         side: Side,
@@ -37,6 +37,8 @@ impl CoarserCells {
         ])
     }
 
+    /// Averages the first state of a run onto cells twice as large, for one way to pair them, and finds its
+    /// borders. Places are then counted from the middle of these cells.
     fn new(
         body: &Body,
         side: Side,
@@ -74,7 +76,7 @@ impl CoarserCells {
         })
     }
 
-    /// Restricts the borders to a line of the fine grid.
+    /// Keeps only the borders on a line of the fine grid.
     pub(super) fn on_line(self, line: Line) -> Self {
         let line = line.with_origin(self.middle).0;
         Self {
@@ -83,7 +85,7 @@ impl CoarserCells {
         }
     }
 
-    /// Converts a place to the coordinates of the coarser grid. A place beside a border keeps its
+    /// Converts a place x, y \[m\] of the fine grid to the coarse one. A place beside a `border` keeps its
     /// distance from the nearest border there.
     fn convert_place(&self, x: f64, y: f64, border: Option<&Border>) -> (f64, f64) {
         let (x, y) = (x - self.middle.0, y - self.middle.1);

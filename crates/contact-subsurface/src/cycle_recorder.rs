@@ -30,6 +30,8 @@ impl CycleRecorder {
 }
 
 impl Observer for CycleRecorder {
+    /// Keeps tractions, stick cells, bulk stress and plastic stress of the increments in the branches, and of
+    /// the last increment before them.
     fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error> {
         let (first, last) = self.branches;
         let branch = increment.point.branch;
@@ -69,6 +71,7 @@ impl CycleSource for CycleRecorder {
         self.moments.tractions.len()
     }
 
+    /// The moments with these numbers.
     fn moments(&self, which: &[usize]) -> Result<Moments, Error> {
         let moments = &self.moments;
         Ok(Moments {
@@ -85,6 +88,7 @@ impl CycleSource for CycleRecorder {
         })
     }
 
+    /// The moment before the first branch, if there is one.
     fn start(&self) -> Result<Option<Moments>, Error> {
         Ok(self.start.clone())
     }

@@ -17,7 +17,7 @@ pub(super) struct Fineness {
 }
 
 impl Fineness {
-    /// Fineness for samples that share their parts; none lies on a border.
+    /// Fineness for samples in the middle of cells, which share the parts of a cell; none lies on a border.
     pub(super) fn shared(flat: bool) -> Self {
         let (grading, cuts) = if flat { (8.0, 5) } else { (2.0, 4) };
         Self { grading, cuts }
@@ -67,7 +67,8 @@ pub(super) const SHARED_DIVISIONS: usize = 2;
 
 const THIRDS: [f64; 3] = [0.0, -1.0 / 3.0, 1.0 / 3.0];
 
-/// Offsets of the thirds of a part along and across, over its size.
+/// Yields the offsets of the middles of the thirds of a part, along and across, over the size of the part;
+/// `flat` in plane strain.
 fn thirds(flat: bool) -> impl Iterator<Item = (f64, f64)> {
     let across = &THIRDS[..if flat { 1 } else { 3 }];
     THIRDS
@@ -75,7 +76,7 @@ fn thirds(flat: bool) -> impl Iterator<Item = (f64, f64)> {
         .flat_map(move |s| across.iter().map(move |t| (s, *t)))
 }
 
-/// Middles of all parts of a cell after so many divisions and one more, in cells.
+/// Middles of the parts of a cell, in cells, after so many divisions into thirds and one more.
 pub(super) fn middles(flat: bool, division: usize) -> Vec<(f64, f64)> {
     let mut middles = vec![(0.0, 0.0)];
     let mut whole = 1.0;
@@ -89,7 +90,7 @@ pub(super) fn middles(flat: bool, division: usize) -> Vec<(f64, f64)> {
     middles
 }
 
-/// The response to a unit slope along and across, from the parts of a cell.
+/// The stress under tractions that rise with unit slope along and across the cell: sums over its parts.
 pub(super) fn slopes(parts: &[Part]) -> [[[f64; 3]; 6]; 2] {
     let mut slopes = [[[0.0; 3]; 6]; 2];
     for Part { at, response, .. } in parts {
@@ -140,7 +141,8 @@ impl Whole {
 pub(super) type ResponseCache = HashMap<[u64; 3], [[f64; 3]; 6]>;
 
 impl Division<'_> {
-    /// Adds the nine thirds of a part. A third that is too large is divided again.
+    /// Divides a part into nine thirds (three in plane strain) and adds them to `parts`. A third that is too
+    /// large for its distance from the sample is divided again.
     pub(super) fn add_thirds(&self, parts: &mut Vec<Part>, whole: Whole) {
         let size = whole.size / 3.0;
         let divisions = whole.divisions + 1;
@@ -201,6 +203,7 @@ impl Division<'_> {
         mirrored
     }
 
+    /// Computes the stress under a part with unit tractions, in the axes of the body.
     fn compute_response(&self, x: f64, y: f64, size: f64) -> [[f64; 3]; 6] {
         let d_x = size * self.d.0;
         let d_y = if self.flat { self.d.1 } else { size * self.d.1 };

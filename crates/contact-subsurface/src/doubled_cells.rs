@@ -23,6 +23,7 @@ impl DoubledCells {
         [0, 1].map(|before| Self::new(fine, before))
     }
 
+    /// Pairs the cells of a grid, the first pair having `before` (0 or 1) cells beyond the grid.
     fn new(fine: &Grid, before: usize) -> Self {
         let across = if fine.ny == 1 { 1 } else { 2 };
         let before_y = before * (across - 1);
@@ -51,7 +52,7 @@ impl DoubledCells {
         }
     }
 
-    /// Doubles other cells, paired like these.
+    /// Pairs the cells of another grid of nx x ny cells in the same way.
     pub(crate) fn for_cells(&self, [nx, ny]: [usize; 2], [dx, dy]: [f64; 2]) -> Self {
         let fine = Grid {
             nx,
@@ -74,6 +75,7 @@ impl DoubledCells {
         1.0 / (2 * self.rows_per_cell()) as f64
     }
 
+    /// Rows of fine cells in a larger one: 2, or 1 in plane strain.
     fn rows_per_cell(&self) -> usize {
         if self.fine.ny == 1 { 1 } else { 2 }
     }
@@ -96,7 +98,7 @@ impl DoubledCells {
         (0..self.grid.cells()).map(mean_of).collect()
     }
 
-    /// Marks each larger cell of which any part is marked.
+    /// Marks each larger cell that contains a marked cell.
     pub(crate) fn any(&self, mask: &[bool]) -> Vec<bool> {
         let is_marked = |n: usize| self.fine_cells(n).any(|m| mask[m]);
         (0..self.grid.cells()).map(is_marked).collect()

@@ -62,7 +62,7 @@ struct Stencil {
 type Weights = [(usize, f64); POINTS];
 
 impl Eigenstress {
-    /// Returns the fields with x, y counted from another point of the scene \[m\].
+    /// Shifts the origin of x and y to another point of the scene \[m\].
     #[must_use]
     pub fn with_origin(&self, (x, y): (f64, f64)) -> Self {
         Self {
@@ -123,8 +123,8 @@ impl Eigenstress {
         sum
     }
 
-    /// Averages over pairs of planes of a layer and over pairs of cells, paired like the cells of
-    /// the contact. x, y are counted from the middle of these.
+    /// Averages over pairs of planes of a layer and pairs of cells, for an estimate of the error. Cells are
+    /// paired like the cells of the contact; x, y are counted from the middle of these.
     #[must_use]
     pub fn coarsened(&self, contact: &DoubledCells) -> Self {
         let field = &*self.field;
@@ -221,8 +221,8 @@ impl Field {
         })
     }
 
-    /// The cells beside a place along an axis with their weights, and the decay of the stress
-    /// beyond the grid.
+    /// Cells and weights for the interpolation at a place along an axis (0: x, 1: y), and a factor by which the
+    /// stress decays beyond the grid.
     fn cells_along(&self, axis: usize, place: f64) -> (Weights, f64) {
         let n = self.n[axis];
         if n == 1 {
@@ -241,8 +241,8 @@ impl Field {
     }
 }
 
-/// Weights of Lagrange's polynomial through the points nearest to a place; beyond them the weights
-/// of the nearest end.
+/// Indices and weights of Lagrange's polynomial through the points nearest to `at`; beyond the last points the
+/// weights at the nearest end.
 fn lagrange_weights(points: &[f64], at: f64) -> Weights {
     let count = points.len().min(POINTS);
     let above = points.partition_point(|p| *p < at);

@@ -102,8 +102,8 @@ impl Cycle {
         CELLS[usize::from(!plane_strain)] / self.slip_cells.max(FEWEST).powf(1.5)
     }
 
-    /// Error of the sliding ratio by the cells on a grid. The shift that is not opening is elastic: in
-    /// gross slip this part alone has the error.
+    /// Error of the sliding ratio by the cells on a grid. The part of the shift that is no opening is elastic
+    /// and has no such error, so that it shrinks in gross slip.
     fn sliding_ratio_error_of_cells(&self, plane_strain: bool) -> f64 {
         let s = ratio(self.opening, self.delta);
         (self.opening_error_of_cells(plane_strain) * s * (1.0 - s)).max(0.0)
@@ -152,7 +152,7 @@ fn ratio(a: f64, b: f64) -> f64 {
     if b > 0.0 { a / b } else { 0.0 }
 }
 
-/// The loops of a motion in the cycles of a path that the history contains completely.
+/// The loops of a motion in those cycles of a path that the history contains completely.
 pub fn loops(path: &LoadPath, direction: Direction, history: &[LoopPoint]) -> Vec<Cycle> {
     let points_to = |branch: usize| -> usize {
         let before = path.branches.iter().take(branch);
@@ -168,6 +168,7 @@ pub fn loops(path: &LoadPath, direction: Direction, history: &[LoopPoint]) -> Ve
     done.collect()
 }
 
+/// The loop of a cycle: `part` are its increments, `curve` starts one point earlier.
 fn cycle(
     branches: (usize, usize),
     direction: Direction,
@@ -199,8 +200,8 @@ fn cycle(
     }
 }
 
-/// The runs of a loop from reversal to reversal, each with the point that it starts from. Branches that go on
-/// in the same direction of force and shift are one run.
+/// Splits a loop into runs from reversal to reversal, each with the point that it starts from. Branches that go
+/// on in the same direction of force and shift are one run.
 fn runs(curve: &[LoopPoint]) -> Vec<&[LoopPoint]> {
     let span = |value: fn(&LoopPoint) -> f64| {
         let values = curve.iter().map(value);
@@ -224,7 +225,8 @@ fn runs(curve: &[LoopPoint]) -> Vec<&[LoopPoint]> {
     pairs.map(|pair| &curve[pair[0] - 1..pair[1]]).collect()
 }
 
-/// The runs that begin at a reversal. The first one does not if the last one goes on in its direction.
+/// The runs of a loop that begin at a reversal. The first one does not if the last one goes on in its
+/// direction.
 fn from_reversals(curve: &[LoopPoint]) -> Vec<&[LoopPoint]> {
     let mut runs = runs(curve);
     let rise = |run: &[LoopPoint]| match run {

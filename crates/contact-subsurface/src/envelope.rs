@@ -34,6 +34,7 @@ pub struct DepthEnvelope {
 }
 
 impl Extremes {
+    /// Extremes before any value: -inf, inf.
     fn empty(shape: (usize, usize)) -> Self {
         Self {
             max: Array2::from_elem(shape, f64::NEG_INFINITY),
@@ -42,6 +43,7 @@ impl Extremes {
         }
     }
 
+    /// Updates the extremes at a place with the value of an increment.
     fn include(&mut self, at: (usize, usize), value: f64, increment: usize) {
         if value > self.max[at] {
             self.max[at] = value;
@@ -64,6 +66,7 @@ impl Extremes {
 impl Accumulate for Envelope {
     type Accumulator = DepthEnvelope;
 
+    /// Empty extremes of all measures at the places of a depth.
     fn start(&self, _: Depth, places: usize) -> DepthEnvelope {
         let empty = || Extremes::empty((self.measures.len(), places));
         DepthEnvelope {
@@ -72,6 +75,7 @@ impl Accumulate for Envelope {
         }
     }
 
+    /// Updates the extremes of the path and of each cycle with the measures of a stress.
     fn add(&self, kept: &mut DepthEnvelope, moment: Moment, stress: &Array2<f64>) {
         let mut of_cycles: Vec<&mut Extremes> = self
             .cycles

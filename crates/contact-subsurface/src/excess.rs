@@ -33,7 +33,8 @@ pub(super) struct ExcessTable {
 }
 
 impl ExcessTables {
-    /// Empty tables of the cells of a window that are near a border.
+    /// Prepares empty tables for the cells of a window that are near a border, to be filled when they are
+    /// needed.
     pub(super) fn new(
         window: &(Range<usize>, Range<usize>),
         flat: bool,
@@ -56,7 +57,7 @@ impl ExcessTables {
         }
     }
 
-    /// The table of a cell of the grid; `None` where the tractions are constant.
+    /// The table of a cell, computed at its first use; `None` where the tractions are constant.
     pub(super) fn fetch(&self, state: &Continued, cell: (usize, usize)) -> Option<&ExcessTable> {
         let i = cell.0.checked_sub(self.start.0)?;
         let j = cell.1.checked_sub(self.start.1)?;
@@ -74,7 +75,7 @@ impl ExcessTables {
 }
 
 impl ExcessTable {
-    /// The excess of the tractions on a part \[Pa\].
+    /// The excess of the tractions over their constant values on a part of the cell: q_x, q_y, p \[Pa\].
     pub(super) fn on_part(&self, part: &Part) -> [f64; 3] {
         let Some(SharedPart { division, index }) = part.shared else {
             return self.evaluate(part.at);
@@ -86,7 +87,8 @@ impl ExcessTable {
         table[index]
     }
 
-    /// The excess at an offset from the middle, in cells \[Pa\].
+    /// The excess of the tractions over their constant values at an offset from the middle of the cell: q_x,
+    /// q_y, p \[Pa\].
     fn evaluate(&self, offset: (f64, f64)) -> [f64; 3] {
         let q = self.within.evaluate(offset);
         std::array::from_fn(|c| q[c] - self.within.constant[c])

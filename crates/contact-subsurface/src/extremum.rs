@@ -42,8 +42,8 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// Errors of a search along a line, across it and along depth. The line counts as the nearer
-    /// axis.
+    /// Collects the errors that a search found along its line, across it and in depth; the axis nearer to the
+    /// line gets the first.
     pub fn from_search(line: Line, [along, across, z]: [f64; 3]) -> Self {
         let [cos, sin] = line.direction();
         let (x, y) = if cos.abs() >= sin.abs() {
@@ -83,14 +83,14 @@ impl Extremum {
         self
     }
 
-    /// Sets coordinates to zero that are zero to rounding on a grid of this size \[m\].
+    /// Sets coordinates that are zero to rounding to zero; `size` \[m\] is the size of the grid.
     #[must_use]
     pub fn snapped_to_zero(mut self, size: f64) -> Self {
         (self.x, self.y) = (place(self.x, size), place(self.y, size));
         self
     }
 
-    /// The larger of the two.
+    /// The one of two extrema with the larger value.
     #[must_use]
     pub fn or_larger(self, other: Self) -> Self {
         if other.value > self.value {
@@ -100,7 +100,7 @@ impl Extremum {
         }
     }
 
-    /// The largest of several; `None` if all are NaN.
+    /// The extremum with the largest value; `None` if all values are NaN.
     pub fn largest(values: impl IntoIterator<Item = Self>) -> Option<Self> {
         let numbers = values.into_iter().filter(|e| !e.value.is_nan());
         numbers.reduce(Self::or_larger)

@@ -77,9 +77,9 @@ impl Largest {
     }
 }
 
-/// The largest value of a sampled field, shape (depths, places), below a line at the places `along`
-/// it \[m\], by parabolas between the samples. Its errors: the difference between parabola and
-/// sample, and the change of the value if every other depth of each layer is left out.
+/// The largest value of a sampled field, shape (depths, places), below the places `along` a line \[m\], by
+/// parabolas between the samples. Its errors: the difference between parabola and sample, and the change of the
+/// value if every other depth of each layer is left out.
 pub fn largest_of_samples(
     values: &ArrayView2<'_, f64>,
     depths: &[Depth],
@@ -100,7 +100,8 @@ fn span(along: &[f64]) -> f64 {
         .map_or(0.0, |(last, first)| last - first)
 }
 
-/// Finds the largest value between the samples from the tops at the depths.
+/// Finds the largest value between the samples, from the top of each depth. With `of_interfaces`, depths on
+/// interfaces count, too.
 fn largest_between_samples(
     tops: &[Option<Top<1>>],
     depths: &[Depth],
@@ -142,11 +143,13 @@ fn largest_between_samples(
 impl Accumulate for Largest {
     type Accumulator = DepthTops;
 
+    /// No tops yet at this depth.
     fn start(&self, depth: Depth, _: usize) -> DepthTops {
         let tops = Vec::new();
         DepthTops { depth, tops }
     }
 
+    /// Keeps the top of each measure along the line at this moment.
     fn add(&self, kept: &mut DepthTops, moment: Moment, stress: &Array2<f64>) {
         let measures = self.measures.iter();
         let top = |m: &Measure| top_of_line(&m.at_points(&stress.view()).view(), &self.along);
@@ -157,6 +160,7 @@ impl Accumulate for Largest {
         });
     }
 
+    /// Keeps the largest value of each measure on the borders of the moment last added.
     fn add_borders(&self, kept: &mut DepthTops, borders: &[(Border, StressTensor)]) {
         let Some(last) = kept.tops.last_mut() else {
             return;

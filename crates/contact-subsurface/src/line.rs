@@ -167,8 +167,8 @@ impl Line {
         }
     }
 
-    /// The line in coordinates with another origin, and the difference of the distance s there and
-    /// here \[m\].
+    /// This line in coordinates with another origin (x_0, y_0), and the value there of s where it is 0 here
+    /// \[m\].
     #[must_use]
     pub fn with_origin(self, (x_0, y_0): (f64, f64)) -> (Self, f64) {
         match self {
@@ -192,8 +192,8 @@ impl Line {
         }
     }
 
-    /// Distances of the samples on a grid \[m\]: the cells of a line along an axis, else steps from
-    /// the given point to the borders of the grid.
+    /// Distances s of the samples on a grid \[m\]: the middles of the cells for a line along an axis, otherwise
+    /// equal steps from the given point to the borders of the grid.
     pub fn places(self, grid: &Grid) -> Vec<f64> {
         match self {
             Self::AlongX(_) => (0..grid.nx).map(|i| grid.x(i)).collect(),

@@ -120,7 +120,8 @@ impl LineTransform {
         })
     }
 
-    /// The lines of all states, each of shape (R, n).
+    /// Convolves the loads with a kernel for all states: the N quantities along the line of n cells, each of
+    /// shape (R, n); `d` are the sides of the cells.
     pub(super) fn convolve<Q: Quantity<N, R>, const N: usize, const R: usize>(
         &self,
         kernel: &DepthKernel<Q, N, R>,
@@ -177,7 +178,8 @@ impl LineTransform {
         Ok(self.transform_back(&sums, (states, R, n)))
     }
 
-    /// Transforms the sums back; a kernel odd along the line has the transform -i times its sum.
+    /// Transforms the sums of even and odd entries back to the line, for all states and components. A kernel
+    /// that is odd along the line has the transform -i times its sum.
     fn transform_back(
         &self,
         sums: &[Vec<Complex64>; 2],
@@ -217,7 +219,7 @@ impl LineTransform {
 /// Row and column of a kernel's entry.
 type Entry = (usize, usize);
 
-/// The kernel's entries that meet loads, by their parity along the line.
+/// The entries of the kernel that act on loads that are not zero, even and odd ones along the line.
 fn entries_with_loads<Q: Quantity<N, R>, const N: usize, const R: usize>(
     pair: &RowPair,
 ) -> (Vec<Entry>, Vec<Entry>) {

@@ -31,7 +31,8 @@ impl Source {
         usize::from(self == Self::Points)
     }
 
-    /// The source to use at the depth z.
+    /// Whether cells near the depth z act as cells or as points: the source to use there; `d` are the sides of
+    /// the cells.
     pub(super) fn for_depth(z: f64, d: (f64, f64)) -> Self {
         if z < DEEP * d.0.max(d.1) {
             Self::Cells
@@ -40,7 +41,7 @@ impl Source {
         }
     }
 
-    /// The kernel at the offsets (i dx, y), i < n.
+    /// The responses to a unit source at the offsets (i dx, y), i < n; `put` takes them with i.
     pub(super) fn row<Q: Quantity<N, R>, const N: usize, const R: usize>(
         self,
         kernel: &DepthKernel<Q, N, R>,
@@ -188,8 +189,7 @@ impl Plane {
         }
     }
 
-    /// The columns and rows that hold a load in any of the states; columns symmetric to the
-    /// middle.
+    /// The range of columns (symmetric to the middle) and rows that hold a load in any of the states.
     pub(super) fn loaded_patch(&self, states: &[Tractions<'_>], source: Source) -> Patch {
         let (columns, rows) = self.n;
         let (mut i0, mut i1, mut j0, mut j1) = (columns, 0, rows, 0);
@@ -223,7 +223,8 @@ impl Plane {
         }
     }
 
-    /// The loads of one state on the body.
+    /// Loads of one state on the body: tractions of cells, or forces at points shared with the neighbours, as
+    /// the source needs.
     pub(super) fn loads(
         &self,
         tractions: &Tractions<'_>,

@@ -48,7 +48,7 @@ impl Direction {
 }
 
 impl LoopPoint {
-    /// The force and shift of an increment on a grid along a direction.
+    /// The point of the loop after an increment: force (or moment), shift (or rotation), energy, state.
     pub fn new(increment: &Increment, grid: &Grid, direction: Direction) -> Self {
         let (loads, motion) = (&increment.point.loads, &increment.motion);
         let (T, delta) = match direction {

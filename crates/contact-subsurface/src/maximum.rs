@@ -88,9 +88,8 @@ pub fn top_of_plane(values: &Array2<f64>, x: &[f64], y: &[f64]) -> Option<Top<2>
     })
 }
 
-/// The hills over depths, from the tops at each, the highest first. Depths of different layers are
-/// not neighbours, so that kinks at interfaces remain. If `smooth`, the field is interpolated
-/// between depths.
+/// Finds the maxima over the depths, the highest first, from the top of each depth. Depths of different layers
+/// are no neighbours, so that kinks at interfaces remain. If `smooth`, parabolas interpolate between depths.
 pub(super) fn find_hills<const D: usize>(
     tops: &[Option<Top<D>>],
     depths: &[Depth],
@@ -133,6 +132,7 @@ pub(super) fn find_hills<const D: usize>(
     hills
 }
 
+/// Index of the largest sampled top.
 fn index_of_largest<const D: usize>(tops: &[Top<D>]) -> Option<usize> {
     (0..tops.len()).max_by(|&a, &b| tops[a].value.total_cmp(&tops[b].value))
 }

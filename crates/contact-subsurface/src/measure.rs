@@ -26,6 +26,7 @@ impl Measure {
     }
 }
 
+/// A measure with one value at a place; at an interface it is taken from one side.
 const fn measure(
     name: &'static str,
     long_name: &'static str,
@@ -39,6 +40,7 @@ const fn measure(
     }
 }
 
+/// Lets a measure count on interfaces, too, where its value is the same on both sides.
 const fn on_interfaces(measure: Measure) -> Measure {
     Measure {
         on_interfaces: true,

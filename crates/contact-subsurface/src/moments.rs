@@ -188,7 +188,8 @@ pub fn half_width(cycle: &dyn CycleSource, grid: &Grid, line: Line) -> Result<f6
     Ok(widths.fold(0.0, f64::max))
 }
 
-/// The outlines of a contact over a cycle, and whether a bulk stress acts.
+/// The outlines of a contact at the moments of a cycle that have one, and whether a bulk stress acts at any
+/// moment.
 fn outlines(cycle: &dyn CycleSource, grid: &Grid) -> Result<(Vec<Outline>, bool), Error> {
     let which: Vec<usize> = (0..cycle.count())
         .step_by((cycle.count() / SECTION_MOMENTS).max(1))

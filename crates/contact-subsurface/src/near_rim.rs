@@ -62,7 +62,8 @@ pub(super) struct Parts {
 }
 
 impl NearRim {
-    /// For samples in the cells of these columns and rows.
+    /// Continues the tractions of each state near rims and stick borders, for samples in the cells of these
+    /// columns and rows.
     pub(super) fn new(
         body: &Body,
         grid: &Grid,
@@ -105,7 +106,8 @@ impl NearRim {
         }
     }
 
-    /// The nearest cell to a place, and the offset from its middle in cells.
+    /// The cell (column, row) nearest to a place x, y \[m\], and the offset of the place from its middle in
+    /// cells.
     pub(super) fn locate(grid: &Grid, x: f64, y: f64) -> ((usize, usize), (f64, f64)) {
         let Plane { n, d, .. } = Plane::new(grid, false);
         let along = |v: f64, n: usize, d: f64| {
@@ -117,8 +119,8 @@ impl NearRim {
         ((i, j), (s, t))
     }
 
-    /// The parts around samples at a depth and an `offset` in cells from the middle of their cell;
-    /// none where they are too deep.
+    /// Divides the cells around a sample at a depth into parts, for all cells and states in common; `offset` is
+    /// the sample's offset in cells from the middle of its cell. None where the sample is too deep to need it.
     pub(super) fn parts(
         &self,
         kernel: &DepthKernel<Stress, 10, 6>,
@@ -151,10 +153,14 @@ impl NearRim {
         self.divide(kernel, depth, offset, fineness, &varies, is_smooth)
     }
 
+    /// Whether the grid is one row of cells in plane strain.
     fn is_flat(&self) -> bool {
         self.plane.n.1 == 1
     }
 
+    /// Divides the cells around a sample into parts by their distance from it, and computes their responses.
+    /// `varies` selects the cells by their offset from the sample's cell; with `beyond` the response to slopes
+    /// beyond the divided cells is added. None where the sample is too deep.
     fn divide(
         &self,
         kernel: &DepthKernel<Stress, 10, 6>,
@@ -270,6 +276,7 @@ impl NearRim {
         self.depth_in_cells(depth) < AT_SURFACE || self.states[state].distance(cell) <= FARTHEST
     }
 
+    /// The depth in lengths of the longer side of a cell.
     fn depth_in_cells(&self, depth: Depth) -> f64 {
         let d = self.plane.d;
         depth.z / if self.is_flat() { d.0 } else { d.0.max(d.1) }
@@ -294,7 +301,7 @@ impl NearRim {
         self.depth_in_cells(depth) < 1.0 && self.states.iter().any(is_unknown)
     }
 
-    /// The tractions of a state.
+    /// The continued tractions of a state; none where they are constant in all cells.
     pub(super) fn continued(&self, state: usize) -> Option<&Continued> {
         self.states.get(state)
     }

@@ -12,6 +12,7 @@ pub(super) struct Buffers {
 }
 
 impl Buffers {
+    /// Allocates the buffers of a transform.
     pub(super) fn new(fft: &dyn RealToComplex<f64>) -> Self {
         Self {
             real: vec![0.0; fft.len()],

@@ -84,11 +84,13 @@ impl PlaneTransform {
         Ok(transform)
     }
 
+    /// Number of frequencies along x: half of the length and one.
     fn frequencies(&self) -> usize {
         self.period.0 / 2 + 1
     }
 
-    /// The transform of one component, (k_x, k_y).
+    /// Transforms the loads of one component along x and y: an array over (k_x, k_y). `row` returns the loads
+    /// of a row.
     fn transform_loads<'a>(
         &self,
         row: impl Fn(usize) -> &'a [f64],
@@ -124,7 +126,7 @@ impl PlaneTransform {
         Ok(loads_spectrum)
     }
 
-    /// The product with a kernel, on the grid, for each state.
+    /// Multiplies by a kernel and transforms back: the R components on the grid for each state.
     pub(super) fn convolve<Q: Quantity<N, R>, const N: usize, const R: usize>(
         &self,
         kernel: &DepthKernel<Q, N, R>,
@@ -145,8 +147,8 @@ impl PlaneTransform {
         (0..states).map(of_state).collect()
     }
 
-    /// The kernel's entries transformed along x, each (k_x, offset along y), real numbers by
-    /// parity.
+    /// Transforms the entries of a kernel along x, each an array over (k_x, offset along y) of numbers that are
+    /// real by parity.
     fn along_x<Q: Quantity<N, R>, const N: usize, const R: usize>(
         &self,
         kernel: &DepthKernel<Q, N, R>,
@@ -187,8 +189,8 @@ impl PlaneTransform {
         Ok(half)
     }
 
-    /// The product with the loads, transformed back along y: for each state and component
-    /// (y, k_x).
+    /// Transforms the kernel along y, multiplies by the loads, and transforms the product back along y: for
+    /// each state and component an array over (y, k_x).
     fn along_y<Q: Quantity<N, R>, const N: usize, const R: usize>(
         &self,
         half: &[Vec<f64>],
@@ -237,7 +239,7 @@ impl PlaneTransform {
         Ok(lines)
     }
 
-    /// A component on the grid, from (y, k_x).
+    /// Transforms a component over (y, k_x) back along x, to the grid.
     fn back_along_x(&self, lines: &[Complex64], (nx, ny): (usize, usize)) -> Array2<f64> {
         let norm = 1.0 / (self.period.0 * self.period.1) as f64;
         let mut field = Array2::zeros((nx, ny));
@@ -262,8 +264,8 @@ impl PlaneTransform {
     }
 }
 
-/// Adds the load times (-i)^n S, S being the real or minus the imaginary part of the spectrum and
-/// even or odd in the frequency.
+/// Adds load times spectrum to the sums. The transform of an entry is real, or -i times the imaginary part, by
+/// its parity; `n` counts the odd directions, `odd` is its parity in the frequency.
 fn multiply(
     sum: &mut [Complex64],
     load: &[Complex64],

@@ -34,7 +34,7 @@ impl PlasticStrain {
         Self::sum(&points.collect::<Vec<_>>(), cells)
     }
 
-    /// Sums the numbers at equal places.
+    /// Adds up the numbers of points with the same plane and cell, in the smallest box that holds all points.
     fn sum(points: &[([usize; 3], [f32; NUMBERS])], cells: [usize; 2]) -> Self {
         let (mut first, mut last) = ([usize::MAX; 3], [0; 3]);
         for (at, _) in points {
@@ -75,6 +75,7 @@ impl PlasticStrain {
         Self::sum(&points.collect::<Vec<_>>(), [cells.grid.nx, cells.grid.ny])
     }
 
+    /// Index of a plane and a cell in the box; none outside.
     fn index(&self, at: [usize; 3]) -> Option<usize> {
         let [plane, i, j] = [0, 1, 2].map(|a| at[a].wrapping_sub(self.first[a]));
         let inside = plane < self.n[0] && i < self.n[1] && j < self.n[2];
@@ -87,8 +88,8 @@ impl PlasticStrain {
         Some(std::array::from_fn(|c| f64::from(numbers[c])))
     }
 
-    /// Strain and equivalent strain at a plane and a cell counted from the middle of the grid. The
-    /// middle stays when the grid grows.
+    /// Strain and equivalent strain at a plane and a cell counted from the middle of the grid, which stays when
+    /// the grid grows; zero where nothing has yielded.
     fn around_middle(&self, [plane, i, j]: [isize; 3]) -> [f64; NUMBERS] {
         let whole = |a: usize, at: isize| at + (self.cells[a] / 2) as isize;
         let at = [plane, whole(0, i), whole(1, j)];
@@ -120,6 +121,8 @@ pub struct Growth {
 }
 
 impl Growth {
+    /// Compares two states of plastic strain, from `before` (nothing yielded by default) to `after`: largest
+    /// added equivalent strain, and largest net change.
     pub(super) fn between(before: Option<&PlasticStrain>, after: &PlasticStrain) -> Self {
         let mut growth = Self::default();
         for place in after.places() {
@@ -143,7 +146,7 @@ impl Growth {
     }
 }
 
-/// A point with this strain and equivalent strain.
+/// A point that has yielded, with this strain and equivalent strain.
 #[cfg(test)]
 pub(super) fn yielded(strain: [f64; 6], equivalent: f64) -> PlasticPoint {
     PlasticPoint {

@@ -159,6 +159,8 @@ impl Points {
         borders
     }
 
+    /// Computes a quantity of each state at all points, depth by depth. `more` adds what is no response to
+    /// constant tractions.
     fn gather<Q: Quantity<N, R> + Sync, const N: usize, const R: usize>(
         &self,
         points: &[Point],
@@ -181,7 +183,7 @@ impl Points {
         let farthest = distances.fold(0.0, f64::max);
         if by_depth.len() > 1 {
             let depths: Vec<Depth> = by_depth.values().map(|group| points[group[0]].2).collect();
-            self.prepare::<Q, N, R>(&depths, farthest)?;
+            self.tabulate_kernels::<Q, N, R>(&depths, farthest)?;
         }
         let groups: Vec<_> = by_depth
             .into_values()
@@ -209,13 +211,13 @@ impl Points {
 
     /// Tabulates the kernels at several depths together, for points up to a distance from the middle of
     /// the grid \[m\].
-    pub(super) fn prepare<Q: Quantity<N, R>, const N: usize, const R: usize>(
+    pub(super) fn tabulate_kernels<Q: Quantity<N, R>, const N: usize, const R: usize>(
         &self,
         depths: &[Depth],
         farthest: f64,
     ) -> Result<(), Error> {
         let reach = self.plane.reach() + farthest;
-        self.loaded.prepare_kernels::<Q, N, R>(depths, reach)
+        self.loaded.tabulate_kernels::<Q, N, R>(depths, reach)
     }
 
     /// The values of every state at the points of a group, which share their depth; `more` is
@@ -239,7 +241,7 @@ impl Points {
         group.par_iter().map(values_at).collect()
     }
 
-    /// Sums the responses to the loads of each state at a place.
+    /// Sums the responses to the loads of each state at the place x, y \[m\].
     fn sum_responses<Q: Quantity<N, R>, const N: usize, const R: usize>(
         &self,
         kernel: &DepthKernel<Q, N, R>,

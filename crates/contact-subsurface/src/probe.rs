@@ -31,6 +31,7 @@ pub const DISPLACEMENTS: &[Component] = &[
     displacement("u_z", "displacement along z, into body 2", 2),
 ];
 
+/// A component of the displacement along an axis: 0 for x, 1 for y, 2 for z.
 const fn displacement(name: &'static str, long_name: &'static str, axis: usize) -> Component {
     Component {
         name,
@@ -40,7 +41,7 @@ const fn displacement(name: &'static str, long_name: &'static str, axis: usize) 
 }
 
 impl Component {
-    /// Its axis: 0 for x.
+    /// The axis of the component: 0 for x, 1 for y, 2 for z.
     pub(super) fn axis(&self) -> usize {
         self.axis
     }
@@ -61,7 +62,7 @@ impl Probe {
         })
     }
 
-    /// Its name.
+    /// The name of the measure or component.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Stress(m) => m.name,
@@ -69,7 +70,7 @@ impl Probe {
         }
     }
 
-    /// Description.
+    /// A description of the measure or component.
     pub fn long_name(&self) -> &'static str {
         match self {
             Self::Stress(m) => m.long_name,
@@ -77,7 +78,7 @@ impl Probe {
         }
     }
 
-    /// Its unit.
+    /// The unit of its values.
     pub fn unit(&self) -> &'static str {
         match self {
             Self::Stress(_) => "Pa",

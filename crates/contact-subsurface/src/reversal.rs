@@ -49,14 +49,15 @@ struct Law {
 }
 
 impl Law {
+    /// The law of a shift along x or y, or of torsion.
     fn for_direction(direction: Direction) -> Self {
         match direction {
             Direction::X | Direction::Y => Self {
-                secant: force_secant,
+                secant: tangential_secant_ratio,
                 power: 1.0,
             },
             Direction::Torsion => Self {
-                secant: couple_secant,
+                secant: torsional_secant_ratio,
                 power: 3.0,
             },
         }
@@ -125,8 +126,9 @@ fn initial_tangent(branch: &[LoopPoint], law: Law) -> Option<[f64; 2]> {
     ])
 }
 
-/// g(x) of a tangential force and its derivative.
-fn force_secant(x: f64) -> [f64; 2] {
+/// g(x) = S/K, secant over initial stiffness after a reversal of a tangential force, and its derivative. x is
+/// the change of the force over F, the limit that is fitted.
+fn tangential_secant_ratio(x: f64) -> [f64; 2] {
     // Below, rounding costs more than the term of x^3.
     const SMALL: f64 = 1e-4;
     if x < SMALL {
@@ -141,8 +143,9 @@ fn force_secant(x: f64) -> [f64; 2] {
     [value, value * (1.0 / x - 2.0 / (3.0 * root * slipped))]
 }
 
-/// g(x) of a torsional couple and its derivative.
-fn couple_secant(x: f64) -> [f64; 2] {
+/// g(x) = S/K, secant over initial stiffness after a reversal of a torsional couple, and its derivative. x is
+/// the change of the couple over F, the limit that is fitted.
+fn torsional_secant_ratio(x: f64) -> [f64; 2] {
     // Below, rounding costs more than the term of x^3; the term of x^2 is 0.
     const SMALL: f64 = 1e-4;
     if x < SMALL {
@@ -154,8 +157,8 @@ fn couple_secant(x: f64) -> [f64; 2] {
     [value, value * (1.0 / x - (2.0 / root - 1.0) / turned)]
 }
 
-/// K of least squares through secants, each a change of the force and a stiffness, and its standard
-/// error; the error is 0 for two secants.
+/// Fits the initial stiffness K and the limit F to secants, each a change of the force \[N\] and a stiffness
+/// \[N/m\], by least squares. Returns K and its standard error, which is 0 for two secants.
 fn fit_stiffness(secants: &[[f64; 2]], law: Law) -> [f64; 2] {
     let largest = secants.iter().fold(0.0_f64, |m, s| m.max(s[0]));
     // K of least squares for an F of `largest`/c, and what the residuals and the slopes add up to.

@@ -56,7 +56,7 @@ pub struct Search {
 }
 
 impl Search {
-    /// Search in the whole body, with the directions along `line` and across it.
+    /// Prepares a search in the whole body; its directions are along `line` and across it.
     pub(super) fn free(
         body: &Body,
         side: Side,
@@ -75,7 +75,7 @@ impl Search {
         })
     }
 
-    /// Restricts the search to a line.
+    /// Restricts the search to the plane below a line.
     pub(super) fn on_line(self, line: Line) -> Self {
         Self {
             borders: self.points.borders(0, Some(line)),
@@ -86,7 +86,8 @@ impl Search {
         }
     }
 
-    /// Search in the body `side` under the first of the states, below `line` or anywhere.
+    /// Prepares a search in the body `side` under the first of the states: in the plane below `line`, or in the
+    /// whole body without one.
     pub fn new(
         body: &Body,
         side: Side,
@@ -151,8 +152,8 @@ impl Search {
         self.ascend(probe, starts.collect(), depths, layer, &near)
     }
 
-    /// The starting points on a hill of a section: the top of the parabolas and the sample; `free`
-    /// across the line or on it.
+    /// Two starting points on a hill of a section: the vertex of the parabolas and the largest sample. If
+    /// `free`, the search may leave the plane of the line.
     pub(super) fn starts(
         &self,
         line: Line,
@@ -187,7 +188,7 @@ impl Search {
         ]
     }
 
-    /// A starting point at x, y \[m\] and a depth, with the distance to the next depth \[m\].
+    /// A starting point at x, y \[m\] and a depth; `step` is the distance to the next depth \[m\].
     pub(super) fn start_at(&self, [x, y]: [f64; 2], depth: Depth, step: f64) -> Start {
         let [s, t] = self.to_frame(x, y);
         let cell = STEP * self.d.0.max(self.d.1);
@@ -371,7 +372,7 @@ impl Search {
         Ok(Some(extreme.snapped_to_zero(length.max(width))))
     }
 
-    /// Starting points on the borders beside which the samples are largest.
+    /// Starting points on the borders beside which the samples `near` them are largest.
     fn border_starts(&self, depths: &[Depth], near: &dyn Fn(&Border) -> f64) -> Vec<Start> {
         let mut by_sample: Vec<(f64, &Border)> = self
             .borders
@@ -416,7 +417,8 @@ impl Search {
             .collect()
     }
 
-    /// The points half a cell to both sides. The values there bound the effect of an uncertain rim.
+    /// The points half a cell before and behind a point along the line: the values there bound the effect of an
+    /// uncertain rim.
     fn points_beside(&self, (s, t, depth): Point) -> Vec<Point> {
         let step = STEP * self.line.map_or(self.d.0, |line| line.step(&self.grid));
         [step, -step].map(|by| (s + by, t, depth)).into()
@@ -450,12 +452,13 @@ impl Search {
     }
 }
 
+/// Whether the values of a probe on interfaces count.
 fn is_on_interfaces(probe: &Probe) -> bool {
     matches!(probe, Probe::Stress(m) if m.on_interfaces)
 }
 
-/// The hills of a layer, or of all, that are evaluated, from the tops at the depths. `on_interface`
-/// marks the depths on an interface ([`interface_mask`]), which needs all depths of the body.
+/// The hills to ascend from, in one layer or in all, from the top of each depth. `on_interface` marks the
+/// depths on an interface ([`interface_mask`]).
 pub(super) fn select_hills<const D: usize>(
     probe: &Probe,
     tops: &[Option<Top<D>>],

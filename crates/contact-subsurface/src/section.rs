@@ -72,14 +72,14 @@ impl Section {
     /// Stress of each state \[Pa\], shape (6, depths, cells along the line): xx, yy, zz, xy, xz,
     /// yz.
     pub fn stress(&self, depths: &[Depth]) -> Result<Vec<Array3<f64>>, Error> {
-        self.prepare::<Stress, 10, 6>(depths)?;
+        self.tabulate_kernels::<Stress, 10, 6>(depths)?;
         self.gather::<6>(depths, |depth| self.stress_at(depth))
     }
 
     /// Displacement of each state relative to infinity \[m\], shape (3, depths, cells along the
     /// line).
     pub fn displacement(&self, depths: &[Depth]) -> Result<Vec<Array3<f64>>, Error> {
-        self.prepare::<Displacement, 5, 3>(depths)?;
+        self.tabulate_kernels::<Displacement, 5, 3>(depths)?;
         self.gather::<3>(depths, |depth| match &self.method {
             Method::Rows(rows) => rows.displacement_at(depth),
             Method::Points(points, places) => points
@@ -96,26 +96,26 @@ impl Section {
         kept: &mut [T],
         f: impl Fn(&mut T, Depth, &[Array2<f64>]) + Sync,
     ) -> Result<(), Error> {
-        self.prepare::<Stress, 10, 6>(depths)?;
+        self.tabulate_kernels::<Stress, 10, 6>(depths)?;
         depths.par_iter().zip(kept).try_for_each(|(depth, kept)| {
             f(kept, *depth, &self.stress_at(*depth)?);
             Ok(())
         })
     }
 
-    /// Tabulates the kernels at the depths of a line along an axis together.
-    fn prepare<Q: Quantity<N, R>, const N: usize, const R: usize>(
+    /// Tabulates, in one go, the kernels that the line needs at all these depths.
+    fn tabulate_kernels<Q: Quantity<N, R>, const N: usize, const R: usize>(
         &self,
         depths: &[Depth],
     ) -> Result<(), Error> {
         match &self.method {
             Method::Rows(rows) => {
                 let reach = rows.plane.reach();
-                rows.loaded.prepare_kernels::<Q, N, R>(depths, reach)
+                rows.loaded.tabulate_kernels::<Q, N, R>(depths, reach)
             }
             Method::Points(points, places) => {
                 let farthest = places.iter().map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max);
-                points.prepare::<Q, N, R>(depths, farthest)
+                points.tabulate_kernels::<Q, N, R>(depths, farthest)
             }
         }
     }
@@ -154,7 +154,7 @@ fn points_at_depth(places: &[(f64, f64)], depth: Depth) -> Vec<Point> {
     places.iter().map(|&(x, y)| (x, y, depth)).collect()
 }
 
-/// Converts values at points, by state, to arrays of shape (R, points).
+/// Converts values at points, for each state, to arrays of shape (R, points).
 fn to_arrays<const R: usize>(of_states: Vec<Vec<[f64; R]>>) -> Vec<Array2<f64>> {
     let line =
         |values: Vec<[f64; R]>| Array2::from_shape_fn((R, values.len()), |(row, n)| values[n][row]);
@@ -176,6 +176,8 @@ fn check_above_grid(grid: &Grid, line: Line) -> Result<(), Error> {
 }
 
 impl Rows {
+    /// Prepares a section below a line along an axis: transforms of the loads for cells and for points, and the
+    /// tractions near rims.
     fn new(
         body: &Body,
         side: Side,

@@ -91,7 +91,7 @@ impl Slices {
     ) -> Result<(), Error> {
         let reach = self.plane.reach();
         self.loaded
-            .prepare_kernels::<Stress, 10, 6>(depths, reach)?;
+            .tabulate_kernels::<Stress, 10, 6>(depths, reach)?;
         depths.par_iter().zip(kept).try_for_each(|(depth, kept)| {
             let flat = |planes: [Array2<f64>; 6]| {
                 let cells = planes[0].len();
@@ -144,6 +144,7 @@ impl Slices {
         }
     }
 
+    /// The planes of R components of each state at one depth, in the axes of the scene.
     fn planes_at<Q: Quantity<N, R>, const N: usize, const R: usize>(
         &self,
         kernel: &DepthKernel<Q, N, R>,

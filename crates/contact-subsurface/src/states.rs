@@ -40,6 +40,7 @@ pub struct States<'a> {
 }
 
 impl<'a> From<&'a [Tractions<'a>]> for States<'a> {
+    /// Tractions alone, constant in each cell.
     fn from(tractions: &'a [Tractions<'a>]) -> Self {
         Self {
             tractions,
@@ -49,12 +50,14 @@ impl<'a> From<&'a [Tractions<'a>]> for States<'a> {
 }
 
 impl<'a, const N: usize> From<&'a [Tractions<'a>; N]> for States<'a> {
+    /// Tractions alone, constant in each cell.
     fn from(tractions: &'a [Tractions<'a>; N]) -> Self {
         tractions.as_slice().into()
     }
 }
 
 impl<'a> From<&'a Vec<Tractions<'a>>> for States<'a> {
+    /// Tractions alone, constant in each cell.
     fn from(tractions: &'a Vec<Tractions<'a>>) -> Self {
         tractions.as_slice().into()
     }
@@ -120,7 +123,7 @@ impl Loaded {
 
     /// Tabulates the kernels at several depths together, for [`Self::kernel`] with the same reach. A
     /// depth that has no kernel is left to [`Self::kernel`], which refuses it.
-    pub(super) fn prepare_kernels<Q: Quantity<N, R>, const N: usize, const R: usize>(
+    pub(super) fn tabulate_kernels<Q: Quantity<N, R>, const N: usize, const R: usize>(
         &self,
         depths: &[Depth],
         reach: f64,

@@ -71,15 +71,18 @@ pub trait Accumulate: Sync {
 impl<A: Accumulate, B: Accumulate> Accumulate for (A, B) {
     type Accumulator = (A::Accumulator, B::Accumulator);
 
+    /// The accumulators of both parts.
     fn start(&self, depth: Depth, places: usize) -> Self::Accumulator {
         (self.0.start(depth, places), self.1.start(depth, places))
     }
 
+    /// Adds the stress of a moment to both parts.
     fn add(&self, kept: &mut Self::Accumulator, moment: Moment, stress: &Array2<f64>) {
         self.0.add(&mut kept.0, moment, stress);
         self.1.add(&mut kept.1, moment, stress);
     }
 
+    /// Adds the stress on borders to both parts.
     fn add_borders(&self, kept: &mut Self::Accumulator, borders: &[(Border, StressTensor)]) {
         self.0.add_borders(&mut kept.0, borders);
         self.1.add_borders(&mut kept.1, borders);
@@ -153,8 +156,8 @@ impl<A: Accumulate> Stream<A> {
         self.stop = flag;
     }
 
-    /// Treats the tractions as tractions of contacts: [`States::stick`] (default: constant in each
-    /// cell).
+    /// Sets whether the tractions belong to contacts, with rims and stick borders ([`States::stick`]). By
+    /// default they are constant in each cell.
     #[must_use]
     pub fn rim(mut self, rim: bool) -> Self {
         self.rim = rim;
@@ -204,6 +207,7 @@ impl<A: Accumulate> Stream<A> {
         Ok((self.depths, self.kept))
     }
 
+    /// Computes the stresses of the moments that wait, and hands them to the accumulators.
     fn flush(&mut self) -> Result<(), Error> {
         if self.waiting.is_empty() {
             return Ok(());
@@ -285,6 +289,7 @@ fn stress_on_borders(
 }
 
 impl<A: Accumulate> Observer for Stream<A> {
+    /// Takes the tractions, stick cells and plastic strain at the end of an increment.
     fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error> {
         let fields = march.fields();
         let moment = Moment::at_end(increment, self.side);

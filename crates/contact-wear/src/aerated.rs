@@ -20,6 +20,7 @@ pub struct Aerated {
 }
 
 impl Law for Aerated {
+    /// Depth by the law in air and without oxygen, weighted with the aerated share of each cell.
     fn depth(&self, cycle: &CellCycle<'_>, depth: &mut [f64]) -> Result<(), Error> {
         self.law.depth(cycle, depth)?;
         if cycle.aerated.is_empty() {
@@ -71,6 +72,7 @@ impl Law for Aerated {
         self.law.bends(variable)
     }
 
+    /// The part of the depth that is worn without oxygen, at this aerated share.
     fn starved_part(&self, aerated: f64) -> f64 {
         let [in_air, starved] = self.coefficients;
         let starved = (1.0 - aerated) * starved;

@@ -54,7 +54,7 @@ impl Air {
     /// Default of [`Self::ambient`]: 0.21 of an atmosphere \[Pa\].
     pub const AMBIENT: f64 = 21_278.0;
 
-    /// lambda of the reference state over the oxygen distance: 1/ln(2 P_air/P_th).
+    /// The decay length lambda of the reference state over the oxygen distance: 1/ln(2 P_air/P_th).
     pub fn decay_length(ambient: f64, threshold: f64) -> f64 {
         1.0 / (2.0 * ambient / threshold).ln()
     }

@@ -20,8 +20,8 @@ pub(crate) struct Anderson {
 }
 
 impl Anderson {
-    /// The next x after an evaluation of G at x: the combination of the last values of G whose
-    /// residual is least.
+    /// Returns the next x after an evaluation of G at x: the combination of the last values of G whose residual
+    /// is least.
     pub(crate) fn accelerate(&mut self, x: &[f64], G: Vec<f64>) -> Vec<f64> {
         let residual: Vec<f64> = difference(&G, x);
         if let Some([last_G, last_residual]) = &self.last {
@@ -41,7 +41,7 @@ impl Anderson {
         accelerated
     }
 
-    /// Weights of the changes that leave the least residual.
+    /// Weights of the last changes that leave the least residual, by least squares.
     fn weights(&self, residual: &[f64]) -> Vec<f64> {
         let count = self.changes.len();
         let product = |i: usize, j: usize| dot(&self.changes[i][1], &self.changes[j][1]);
@@ -57,10 +57,12 @@ impl Anderson {
     }
 }
 
+/// a - b
 fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
+/// Dot product.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -45,7 +45,7 @@ pub struct Block {
 }
 
 impl Block {
-    /// The start of another run on these surfaces, given the energy dissipated so far \[J\].
+    /// Lets another run start on these surfaces; `dissipated` is the energy dissipated so far \[J\].
     pub fn start(&self, dissipated: f64) -> WornStart {
         WornStart {
             cycles: self.cycles,

@@ -64,7 +64,7 @@ pub(crate) struct BorderFields<'a> {
 }
 
 impl Cut {
-    /// The cut cells of a line contact.
+    /// The cells of a line contact that the border of the contact or of the stick zone crosses.
     pub(crate) fn cells(lattice: Lattice, signs: &BorderFields<'_>) -> Vec<Self> {
         let mut inside = signs.stick.to_vec();
         for n in lattice.border(signs.stick) {
@@ -131,8 +131,8 @@ impl Cut {
         self.share / (1.0 - self.share) / (BORDER_STIFFNESS * response)
     }
 
-    /// Growth of the gap at the cell minus its growth at the cell inside \[m\]: the part `opens` of
-    /// the worn depths, less the bed.
+    /// How much more the gap has grown at the cell than at the next cell inside \[m\]: the part `opens` of the
+    /// worn depths, less the bed.
     pub(crate) fn gap_difference(&self, worn: &Worn, opens: f64) -> f64 {
         let difference = |field: &Vec<f64>| field[self.cell] - field[self.inner];
         let depths: f64 = worn.depth.iter().map(difference).sum();

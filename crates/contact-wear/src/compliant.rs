@@ -17,6 +17,7 @@ pub(crate) struct Compliant<'a> {
 }
 
 impl Compliant<'_> {
+    /// Adds the compliance of each cell times its pressure to u_z.
     fn add(&self, tractions: Tractions<'_>, u_z: Option<&mut [f64]>) {
         if let (Some(p), Some(u_z)) = (tractions.p, u_z) {
             for ((u_z, p), d) in u_z.iter_mut().zip(p).zip(self.compliance) {
@@ -31,6 +32,7 @@ impl SurfaceOperator for Compliant<'_> {
         self.op.shape()
     }
 
+    /// Applies the operator and adds the compliance of each cell.
     fn apply(&mut self, tractions: Tractions<'_>, mut displacements: Displacements<'_>) {
         self.op.apply(
             tractions,
@@ -77,8 +79,8 @@ pub(crate) struct CompliantInverse {
 const ALIKE: f64 = 0.2;
 
 impl CompliantInverse {
-    /// Sets up the inverse for the compliances of the cells and their contact, `touches` > 0. It
-    /// reuses `before` if its D_0 is near enough.
+    /// Sets up the inverse for the `compliance` of the cells and the cells that `touch` (> 0). The inverse
+    /// `before` is reused if its mean compliance D_0 is near enough.
     pub(crate) fn new_or_reused(
         before: Option<Self>,
         kernel: &InfluenceCoefficients,
@@ -107,6 +109,7 @@ impl CompliantInverse {
 }
 
 impl ApproximateInverse for CompliantInverse {
+    /// Applies the inverse with every cell scaled by its compliance.
     fn normal(&mut self, r: &[f64], z: &mut [f64]) {
         for (scaled, (r, scale)) in self.scaled.iter_mut().zip(r.iter().zip(&self.scale)) {
             *scaled = r * scale;

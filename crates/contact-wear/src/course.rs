@@ -144,6 +144,7 @@ struct Course<'a> {
 }
 
 impl<'a> Course<'a> {
+    /// Follows the cells of a body through its layers, from the state in `cycle`.
     fn new(body: &'a BodyWear, cycle: &'a CellCycle<'a>, coatings: &'a [f64]) -> Self {
         let mut bottom = 0.0;
         let depths_below = |h: &f64| {
@@ -166,7 +167,7 @@ impl<'a> Course<'a> {
         self.cycle.dissipated[c] * factor.unwrap_or(1.0)
     }
 
-    /// Depth per cycle \[m\].
+    /// Depth per cycle of every cell \[m\], at a state and a number of cycles.
     fn rate(&self, state: &State, cycles: f64) -> Result<Vec<f64>, Error> {
         let of_layers: Vec<f64>;
         let dissipated = if self.friction.is_some() {
@@ -188,7 +189,8 @@ impl<'a> Course<'a> {
         Ok(depth)
     }
 
-    /// Divides the cycles at the bends in N of the rates of a state.
+    /// Divides the cycles `from` to `to` at the bends that the rates of a state have in N, into parts in which
+    /// they are straight.
     fn straight_parts(
         &self,
         state: &State,
@@ -281,8 +283,8 @@ impl<'a> Course<'a> {
         Ok(())
     }
 
-    /// The next step of a cell with the rate `first` and `left` cycles to go: to the end, to the
-    /// bottom of its layer or to the next place of a table.
+    /// The next step of cell c, with the rate `first` and `remaining` cycles to go: to their end, to the bottom
+    /// of its layer, or to the next place of a table.
     fn next_step(&self, state: &State, c: usize, first: f64, remaining: f64) -> CellStep {
         let grows = self.dissipated(c, state.worn[c]).max(0.0);
         let mut step = CellStep {
@@ -360,10 +362,12 @@ struct CellStep {
 }
 
 impl CellStep {
+    /// Worn depth of cell c after a part of the step \[m\].
     fn worn(&self, state: &State, c: usize, part: f64) -> f64 {
         state.worn[c] + part * self.cycles * self.first
     }
 
+    /// Energy per area of cell c after a part of the step \[J/m^2\].
     fn energy(&self, state: &State, c: usize, part: f64) -> f64 {
         state.energy[c] + part * self.cycles * self.grows
     }

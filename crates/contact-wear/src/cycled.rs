@@ -56,6 +56,7 @@ pub(crate) struct Sums {
 }
 
 impl Sums {
+    /// Sums before any increment, on so many cells; `mu` is the coefficient of friction if it is uniform.
     pub(crate) fn new(cells: usize, mu: Option<f64>) -> Self {
         let field = || vec![0.0; cells];
         Self {
@@ -79,7 +80,7 @@ impl Sums {
         }
     }
 
-    /// Adds an increment, whose branch is passed `count` times in a cycle.
+    /// Adds an increment from the state `before` to `now`, whose branch a cycle passes `count` times.
     pub(crate) fn add(&mut self, before: &State, now: &State, increment: &Increment, count: f64) {
         let (loads, motion) = (&increment.point.loads, &increment.motion);
         let corner = [motion.delta_x, loads.T_x, motion.delta_y, loads.T_y];
@@ -127,8 +128,9 @@ impl Sums {
         }
     }
 
-    /// Finishes the results of the cycle on surfaces worn so far, with this `gap` between them when
-    /// unloaded. The gap grows by the part `opens` of the worn depth.
+    /// Finishes the results of the cycle: compliances at the border, and the gap under load. `worn` are the
+    /// surfaces so far, and `gap` is the gap between them when unloaded; it opens by the part `opens` of the
+    /// worn depths.
     pub(crate) fn finish(
         self,
         pressing: &mut Pressing,

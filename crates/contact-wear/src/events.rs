@@ -58,7 +58,7 @@ fn contains(events: &[Event], kind: EventKind, b: usize, coating: usize) -> bool
         .any(|e| e.kind == kind && e.body == b + 1 && e.coating == coating)
 }
 
-/// The part of a jump after which a coating is first worn through, if one is.
+/// The part of a jump after which a coating is first worn through; none if none is that was not before.
 pub(crate) fn crossing(scene: &Scene, past: &[Event], passage: &Passage<'_>) -> Option<f64> {
     let mut first: Option<f64> = None;
     for (b, bottoms) in bottoms(scene).into_iter().enumerate() {
@@ -74,7 +74,7 @@ pub(crate) fn crossing(scene: &Scene, past: &[Event], passage: &Passage<'_>) -> 
     first
 }
 
-/// The depths that count as an event, for body b.
+/// The events of body b (kind, number of the coating, depth \[m\]) in the order of depth.
 fn event_depths(scene: &Scene, wear: &Wear, b: usize) -> Vec<(EventKind, usize, f64)> {
     let bottoms = &bottoms(scene)[b];
     let thinned = bottoms
@@ -85,7 +85,7 @@ fn event_depths(scene: &Scene, wear: &Wear, b: usize) -> Vec<(EventKind, usize, 
     thinned.into_iter().chain(through).collect()
 }
 
-/// Place of a cell on the grid \[m\].
+/// Coordinates x, y of a cell \[m\].
 fn place(scene: &Scene, cell: usize) -> (f64, f64) {
     let rows = Plan::new(scene).mirror.rows(scene.grid.ny);
     let (i, j) = (cell / rows, cell % rows + scene.grid.ny - rows);

@@ -39,6 +39,7 @@ pub(crate) struct FixedPoint {
 }
 
 impl Default for FixedPoint {
+    /// No evaluation yet.
     fn default() -> Self {
         Self {
             anderson: Anderson::default(),
@@ -53,8 +54,8 @@ impl Default for FixedPoint {
 }
 
 impl FixedPoint {
-    /// Takes the loss at some fields, whose `image` follows from the contact: the loss where both have
-    /// settled, or the next fields.
+    /// Takes the `loss` at the last fields of oxygen and debris, and their `image`, which follows from the
+    /// contact after this loss. Returns the loss if both have settled, otherwise the fields to try next.
     pub(crate) fn advance(
         &mut self,
         third_body: &ThirdBody,
@@ -73,7 +74,7 @@ impl FixedPoint {
         Step::Next(self.accelerate(third_body, fields, image))
     }
 
-    /// Returns the error of evaluations that have not settled.
+    /// The error of evaluations that have not settled.
     pub(crate) fn not_converged(&self) -> Error {
         Error::NotConverged {
             increment: 0,
@@ -85,7 +86,7 @@ impl FixedPoint {
         }
     }
 
-    /// The next fields after an evaluation.
+    /// The next fields after an evaluation at x with this image.
     fn accelerate(
         &mut self,
         third_body: &ThirdBody,

@@ -98,6 +98,7 @@ pub struct Archard {
 }
 
 impl Law for Archard {
+    /// k times the integral of p ds in each cell, the part beyond the threshold of slip.
     fn depth(&self, cycle: &CellCycle<'_>, depth: &mut [f64]) -> Result<(), Error> {
         for (n, depth) in depth.iter_mut().enumerate() {
             let counts = above_threshold(cycle.slip_distance[n], self.threshold);
@@ -123,6 +124,7 @@ impl Law for Archard {
         self.threshold > 0.0
     }
 
+    /// A warning if k is implausibly large or small. A negative k is an error, not a doubt.
     fn doubts(&self, key: &str) -> Vec<String> {
         let k = doubt_of("Archard.k", &format!("{key}.k"), self.k.max(0.0));
         k.into_iter().collect()
@@ -148,6 +150,7 @@ pub struct DissipatedEnergy {
 }
 
 impl Law for DissipatedEnergy {
+    /// alpha times the dissipated energy of each cell, the part beyond the threshold.
     fn depth(&self, cycle: &CellCycle<'_>, depth: &mut [f64]) -> Result<(), Error> {
         for (n, depth) in depth.iter_mut().enumerate() {
             let energy = cycle.dissipated[n];
@@ -173,6 +176,7 @@ impl Law for DissipatedEnergy {
         self.threshold > 0.0
     }
 
+    /// A warning if alpha is implausibly large or small. A negative alpha is an error, not a doubt.
     fn doubts(&self, key: &str) -> Vec<String> {
         let key = format!("{key}.alpha");
         let alpha = doubt_of("DissipatedEnergy.alpha", &key, self.alpha.max(0.0));
@@ -200,6 +204,7 @@ fn above_threshold(value: f64, threshold: f64) -> f64 {
     }
 }
 
+/// Fails unless a constant is finite and not negative; `unit` is named in the error.
 fn check_not_negative(key: &str, value: f64, unit: &str) -> Result<(), Error> {
     if value >= 0.0 && value.is_finite() {
         return Ok(());
@@ -249,10 +254,12 @@ impl BodyWear {
         self.laws.get(only).map(|law| &**law)
     }
 
+    /// Whether any layer has a law.
     pub(crate) fn has_wear(&self) -> bool {
         !self.laws.is_empty()
     }
 
+    /// Fails if the laws do not fit the layers of the body, or a number is out of its range.
     pub(crate) fn check(&self, key: &str, layers: usize) -> Result<(), Error> {
         if self.laws.len() > 1 && self.laws.len() != layers {
             return Err(Error::invalid(

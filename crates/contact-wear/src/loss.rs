@@ -20,6 +20,7 @@ pub(crate) struct Worn {
 }
 
 impl Worn {
+    /// Surfaces without wear on so many cells.
     pub(crate) fn unworn(cells: usize) -> Self {
         let field = || vec![0.0; cells];
         Self {
@@ -32,6 +33,7 @@ impl Worn {
         }
     }
 
+    /// Adds the loss of a jump; the bed becomes the bed at its end.
     pub(crate) fn add(&mut self, loss: &Loss) {
         self.cycles += loss.cycles;
         for b in 0..2 {
@@ -45,6 +47,7 @@ impl Worn {
         }
     }
 
+    /// The largest worn depth of either body \[m\].
     pub(crate) fn deepest(&self) -> f64 {
         self.depth.iter().flatten().fold(0.0, |m, w| m.max(*w))
     }
@@ -79,8 +82,8 @@ pub(crate) struct Debris {
 }
 
 impl Debris {
-    /// Extrapolates two halves by one whole jump. A bed that would be negative is zero, and the
-    /// other cells hold so much less.
+    /// Extrapolates the bed of two half jumps by the bed of one `whole` jump. A bed that would be negative is
+    /// set to zero, and the other cells hold so much less.
     fn extrapolated(mut self, whole: &Self) -> Self {
         let sum = |bed: &[f64]| bed.iter().sum::<f64>();
         let exact = 2.0 * sum(&self.bed) - sum(&whole.bed);
@@ -92,7 +95,7 @@ impl Debris {
 }
 
 impl Loss {
-    /// Mean coefficient of friction, `nominal` where nothing slips under pressure.
+    /// Mean coefficient of friction over the slip under pressure, `nominal` where nothing slips.
     pub(crate) fn mean_mu(&self, nominal: f64) -> f64 {
         let mu = self.dissipated / self.loading;
         if self.loading > 0.0 && mu > 0.0 {
@@ -112,7 +115,7 @@ impl Loss {
         pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
     }
 
-    /// Adds the loss of another jump.
+    /// Adds the loss of a jump that follows.
     pub(crate) fn plus(mut self, other: &Self) -> Self {
         for b in 0..2 {
             add_to(&mut self.depth[b], &other.depth[b]);
@@ -178,6 +181,7 @@ fn extrapolate(halves: &mut [f64], whole: &[f64]) {
     }
 }
 
+/// Adds cell by cell.
 fn add_to(sum: &mut [f64], more: &[f64]) {
     sum.iter_mut()
         .zip(more)

@@ -97,7 +97,8 @@ pub(crate) struct Marched {
 }
 
 impl Marched {
-    /// Solves the lead-in and a cycle on the unworn surfaces, or continues from a state.
+    /// Solves the lead-in and one cycle on the surfaces `worn` so far, or continues from a `state` without
+    /// solving.
     pub(crate) fn new(
         scene: &Scene,
         wear: &Wear,
@@ -182,7 +183,8 @@ impl Marched {
         Ok(marched)
     }
 
-    /// Solves a cycle on surfaces worn so far; the next one starts from its end.
+    /// Solves a cycle on the surfaces worn so far, so that its results belong to them; the next one starts from
+    /// its end.
     pub(crate) fn settle(&mut self, worn: &Worn) -> Result<(), Error> {
         let (cycled, mut start) = self.cycle(worn)?;
         start.increments = self.lead_in;
@@ -227,7 +229,7 @@ impl Marched {
         mu
     }
 
-    /// The fields of the third body under the pressure p, and the gap that they follow from.
+    /// The fields of oxygen and debris before a jump, under the pressure p, and the gap that they follow from.
     fn begin_third_body(
         &mut self,
         third_body: &ThirdBody,
@@ -297,7 +299,8 @@ impl Marched {
         unreachable!("the last correction returns")
     }
 
-    /// The loss in a jump of n cycles that are like the last one, from the pressure `p` on.
+    /// The loss in a jump of n cycles that are like the last one. `p` holds the pressure at its start, and at
+    /// its end on return. If `implicit`, the loss follows from the pressure at the end.
     fn loss_of_jump(
         &mut self,
         worn: &Worn,
@@ -431,13 +434,13 @@ impl Marched {
         half_cell_error(&mut self.pressing, stick, cuts, p, surfaces)
     }
 
-    /// The coefficient of friction after so many cycles, if uniform.
+    /// The coefficient of friction after so many cycles, if it is uniform.
     fn mu(&self, cycles: f64) -> Option<f64> {
         let factor = self.history.as_ref().map_or(1.0, |h| h.factor(cycles));
         self.uniform_mu.map(|mu| mu * factor)
     }
 
-    /// One cycle on worn surfaces, and the state of the march at its end.
+    /// Solves one cycle on worn surfaces; returns its results and the state of the march at its end.
     fn cycle(&mut self, worn: &Worn) -> Result<(CycleResults, State), Error> {
         let gap = gap(&self.h, worn, self.wear.opens());
         let mut start = self.state.start.clone();
@@ -613,6 +616,7 @@ fn depth_norm(depth: &[Vec<f64>; 2]) -> f64 {
     depth.iter().flatten().map(|w| w * w).sum::<f64>().sqrt()
 }
 
+/// Computes the next increment of a path that has one.
 fn advance(march: &mut March) -> Result<Increment, Error> {
     march.advance().unwrap_or(Err(Error::Interrupted {
         increment: march.state().increments,

@@ -111,7 +111,7 @@ impl Method {
     }
 }
 
-/// Half the range of some numbers; 0 of none.
+/// Half the range of some numbers; 0 if there are none.
 fn half_range(values: impl Iterator<Item = f64>) -> f64 {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
         (low.min(v), high.max(v))

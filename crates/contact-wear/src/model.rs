@@ -29,6 +29,7 @@ pub(crate) enum ModelState {
 }
 
 impl ModelState {
+    /// The pressures at all places of a stroke; fails for the state of a march.
     fn sliding(self) -> Result<Vec<Vec<f64>>, Error> {
         match self {
             Self::Sliding(p) => Ok(p),
@@ -36,6 +37,7 @@ impl ModelState {
         }
     }
 
+    /// The state of a march; fails for the state of a stroke.
     fn marched(self) -> Result<MarchedState, Error> {
         match self {
             Self::Sliding(_) => Err(Self::wrong_state()),
@@ -43,6 +45,7 @@ impl ModelState {
         }
     }
 
+    /// The error of a state that belongs to the other method.
     fn wrong_state() -> Error {
         Error::invalid("state", "of another way to cycle", "one of this run")
     }
@@ -91,6 +94,7 @@ impl Model {
         }
     }
 
+    /// The normal problem of the contact.
     pub(crate) fn pressing(&self) -> &Pressing {
         match self {
             Self::Sliding(s) => &s.pressing,
@@ -110,10 +114,12 @@ impl Model {
         Some(shifts.fold([0.0, 0.0], |[low, high], d: f64| [low.min(d), high.max(d)]))
     }
 
+    /// Number of kept cells.
     pub(crate) fn cells(&self) -> usize {
         self.pressing().cells()
     }
 
+    /// A copy of the state, to resume or to repeat from.
     pub(crate) fn state(&self) -> ModelState {
         match self {
             Self::Sliding(s) => ModelState::Sliding(s.p.clone()),
@@ -121,6 +127,7 @@ impl Model {
         }
     }
 
+    /// Goes back to a state of this model.
     pub(crate) fn restore(&mut self, state: &ModelState) {
         match (self, state) {
             (Self::Sliding(s), ModelState::Sliding(p)) => s.p.clone_from(p),
@@ -129,6 +136,7 @@ impl Model {
         }
     }
 
+    /// Solves the contact on the surfaces worn so far, so that the results belong to them.
     pub(crate) fn settle(&mut self, worn: &Worn) -> Result<(), Error> {
         match self {
             Self::Sliding(s) => s.settle(worn),
@@ -136,6 +144,8 @@ impl Model {
         }
     }
 
+    /// The loss of both bodies in a jump of n cycles. If `implicit`, it follows from the pressure at its end,
+    /// otherwise from the pressure at its start.
     pub(crate) fn jump(&mut self, worn: &Worn, n: f64, implicit: bool) -> Result<Loss, Error> {
         match self {
             Self::Sliding(s) => s.jump(worn, n, implicit),
@@ -168,6 +178,7 @@ impl Model {
         }
     }
 
+    /// The fields and numbers of the last cycle for the results.
     pub(crate) fn output(&self) -> CycleOutput<'_> {
         match self {
             Self::Sliding(s) => {

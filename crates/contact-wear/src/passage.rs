@@ -30,8 +30,8 @@ impl Passage<'_> {
     }
 }
 
-/// The part of a jump at which the loss is `target`, with the loss `half` in its first half and
-/// `whole` in all.
+/// The part of a jump after which the loss is `target`, by the parabola through the loss `half` after its first
+/// half and `whole` after all.
 fn part_at_loss(target: f64, half: f64, whole: f64) -> f64 {
     if !(target > 0.0 && whole > 0.0) {
         return 0.0;

@@ -15,8 +15,8 @@
 //! D. A. Hills, Eur. J. Mech. A/Solids 18 (1999) 491-497), on finer cells without bound. There is no largest
 //! pressure then.
 
-/// Error of the largest pressure over it, by the cells; infinite where worn surfaces stick. The pressure has
-/// `ny` cells along y.
+/// Relative error of the largest pressure by the cells, `ny` of them along y; infinite if worn surfaces stick
+/// (`sticks`).
 pub(crate) fn error_of_largest(p: &[f64], ny: usize, sticks: bool) -> f64 {
     let largest = p.iter().fold(0.0, |most: f64, p| most.max(*p));
     if sticks {

@@ -34,6 +34,7 @@ pub(crate) struct Pressing {
 }
 
 impl Pressing {
+    /// Computes the normal coefficients of the scene and plans their convolution.
     pub(crate) fn new(scene: &Scene, plan: &Plan, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
         let (grid, settings, mirror) = (scene.grid, &scene.settings, plan.mirror);
         let kernel = pair_coefficients(
@@ -77,6 +78,7 @@ impl Pressing {
         })
     }
 
+    /// Number of kept cells.
     pub(crate) fn cells(&self) -> usize {
         self.u_z.len()
     }
@@ -87,7 +89,7 @@ impl Pressing {
         self.inverse = None;
     }
 
-    /// C p \[m\].
+    /// Normal displacement C p \[m\].
     pub(crate) fn response(&mut self, p: &[f64]) -> Vec<f64> {
         let mut u_z = vec![0.0; p.len()];
         self.op.apply(
@@ -131,7 +133,8 @@ impl Pressing {
         self.grid.cell_area() * self.mirror.multiplicity()
     }
 
-    /// The drive of a normal force W \[N\], without tilting.
+    /// Boundary conditions for pressing with the force W \[N\]: the approach is free, tilts are held. The
+    /// pressures sum to W over the area of a cell.
     pub(crate) fn drive(&self, W: f64) -> Drive {
         Drive {
             free: [true, false, false],

@@ -27,8 +27,9 @@ pub(super) struct Rates {
 }
 
 impl Rates {
-    /// The coefficients of the loss in a jump of n cycles on worn surfaces, of which the gap opens
-    /// by the part `opens`, near the pressure p.
+    /// The coefficients of the loss in a jump of n cycles. `worn` are the surfaces at its start, whose gap
+    /// opens by the part `opens` of the worn depths. Rates that depend on the pressure are linearised about
+    /// `p`.
     pub(super) fn in_jump(
         &self,
         n: f64,

@@ -66,6 +66,7 @@ impl WearRun {
         Self::begin(scene, wear, Some(start), stop)
     }
 
+    /// Starts a run on unworn surfaces, or on the given ones.
     fn begin(
         scene: &Scene,
         wear: &Wear,
@@ -134,7 +135,7 @@ impl WearRun {
         &self.state
     }
 
-    /// Cycles of a jump for a given number of jumps, else of the first jump.
+    /// Cycles of the first jump, or of each jump if their number is given.
     fn first_jump(&mut self) -> Result<f64, Error> {
         let cycles = self.wear.cycles;
         match self.wear.jumps {
@@ -261,7 +262,7 @@ impl WearRun {
         )
     }
 
-    /// Cycles to the next place of a table of cycles, of the wear laws or of friction.
+    /// Cycles from now to the next row of a table over cycles, in the laws of wear or of friction.
     fn next_bend(&self) -> f64 {
         let now = self.state.cycles;
         let friction = self.scene.friction.history.iter();
@@ -277,6 +278,8 @@ impl WearRun {
         ahead.fold(f64::INFINITY, f64::min) - now
     }
 
+    /// Tries a jump of at most `remaining` cycles, with shorter ones until its error is allowed and no event
+    /// lies within it, and accepts it.
     fn jump(&mut self, remaining: f64) -> Result<Jump, Error> {
         let length = self.state.next;
         let mut n = length.min(remaining);
@@ -344,8 +347,8 @@ impl WearRun {
         })
     }
 
-    /// Fails if a jump wears cells at the border of the grid. The scar then continues beyond it,
-    /// even if the pressure is zero there.
+    /// Fails if a jump wears cells at the border of the grid, since the scar then goes on beyond it even where
+    /// the pressure is zero.
     fn check_on_grid(&self, tried: Attempt) -> Result<Attempt, Error> {
         let rows = self.model.pressing().rows();
         for depth in &tried.loss.depth {
@@ -364,7 +367,7 @@ impl WearRun {
         !matches!(self.wear.jumps, Jumps::Explicit(_)) && n > SHORTEST * self.wear.cycles
     }
 
-    /// A jump of n cycles from the present state.
+    /// Tries a jump of n cycles from the present state.
     fn attempt(&mut self, n: f64) -> Result<Attempt, Error> {
         let WearState { worn, model, .. } = &self.state;
         if matches!(self.wear.jumps, Jumps::Explicit(_)) {
@@ -374,6 +377,8 @@ impl WearRun {
         }
     }
 
+    /// Takes over a jump of n cycles that was tried: new state, events, results. `next` is the length of the
+    /// next jump, and `ends` whether the run ends with this one.
     fn accept(
         &mut self,
         n: f64,
@@ -422,7 +427,8 @@ impl WearRun {
         let by_border = state.lost_by_slip(&seen) * by_border;
         let of_jumps = seen.depth_error + state.over_deepest(by_border);
         let of_spots = state.over_deepest(state.spot_error);
-        let [of_depth, of_volume] = slip_zone::errors(seen.slip_cells, seen.stick_ratio);
+        let [of_depth, of_volume] =
+            slip_zone::relative_cell_errors(seen.slip_cells, seen.stick_ratio);
         let worn = state.over_deepest(1.0) > 0.0;
         let of_cells = |part: f64| if worn { of_jumps.hypot(part) } else { of_jumps };
         let jump = Jump {

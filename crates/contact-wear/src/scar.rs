@@ -46,7 +46,7 @@ struct Cut {
 }
 
 impl Cut {
-    /// Volume from half the width c \[m\].
+    /// Volume per length (line) or volume (round) of the cut of half-width c \[m\].
     fn volume(self, c: f64) -> f64 {
         if self.line {
             2.0 * c.powi(3) / (3.0 * self.R)
@@ -55,7 +55,7 @@ impl Cut {
         }
     }
 
-    /// Half the width from the volume \[m\].
+    /// Half-width of the cut \[m\] from its volume.
     fn half_width(self, volume: f64) -> f64 {
         if self.line {
             (1.5 * volume * self.R).cbrt()
@@ -64,7 +64,7 @@ impl Cut {
         }
     }
 
-    /// Depth in the middle from the volume \[m\].
+    /// Depth of the cut in its middle \[m\] from its volume.
     fn depth(self, volume: f64) -> f64 {
         self.half_width(volume).powi(2) / (2.0 * self.R)
     }
@@ -79,7 +79,8 @@ struct LayerRates {
 }
 
 impl LayerRates {
-    /// The rate where so many coatings are worn through in the middle: the fastest of the bare layers.
+    /// The rate of the fastest of the layers that are bare, once `through` coatings are worn through in the
+    /// middle.
     fn rate(&self, through: usize) -> f64 {
         let bare = self.rates.iter().take(through + 1);
         bare.fold(0.0, |most: f64, rate| most.max(*rate))
@@ -92,8 +93,8 @@ impl LayerRates {
     }
 }
 
-/// Spans of constant rates: cycles at the end of a span, and the volume by which the gap has grown until then.
-/// They end after `cycles`, or at the bottom of a coating where the run does.
+/// Spans of constant rates: the cycles at the end of each, and the volume by which the gap has grown until
+/// then. They end after all cycles, or at the bottom of a coating where the run stops there.
 fn spans(bodies: &[LayerRates; 2], cut: Cut, wear: &Wear) -> Vec<(f64, f64)> {
     let mut spans = vec![(0.0, 0.0)];
     let (mut through, mut depths) = ([0; 2], [0.0; 2]);

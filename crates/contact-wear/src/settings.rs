@@ -43,6 +43,7 @@ pub enum Jumps {
 }
 
 impl Default for Jumps {
+    /// Chosen jumps, with the default tolerance.
     fn default() -> Self {
         Self::Tolerance(0.01)
     }
@@ -378,6 +379,7 @@ impl Wear {
 }
 
 impl Jumps {
+    /// Fails at a tolerance or a number of jumps out of its range.
     fn check(self) -> Result<(), Error> {
         match self {
             Self::Tolerance(tolerance) if !(1e-6..=0.5).contains(&tolerance) => Err(

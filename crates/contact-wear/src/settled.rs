@@ -69,7 +69,7 @@ impl Wear {
     }
 }
 
-/// Places for each branch of a stroke, by the half-width of a spot.
+/// Chooses the increments of each branch of a stroke, from the half-width of a spot \[m\].
 fn choose_places(scene: &mut Scene, half_width: f64) {
     let (mut at, mut W_before) = (0.0, 0.0);
     for branch in &mut scene.path.branches {

@@ -22,12 +22,12 @@ pub(crate) struct Shift {
 }
 
 impl Shift {
-    /// A shift by a number of cells.
+    /// A shift by a number of cells, whole or not.
     pub(crate) fn new(cells: f64) -> Self {
         Self::interval(cells, 0.0)
     }
 
-    /// The shifts of an interval of a length about its middle \[cells\].
+    /// The mean over all shifts in an interval of this length about its middle \[cells\].
     pub(crate) fn interval(middle: f64, length: f64) -> Self {
         let (a, b) = (middle - 0.5 * length, middle + 0.5 * length);
         let first = a.floor();
@@ -52,14 +52,14 @@ impl Shift {
         self.ends
     }
 
-    /// Adds S times `field`, `factor` times, to `onto`; fields of `rows` cells per column.
+    /// Adds `factor` times the shifted field S f to `onto`; fields have `rows` cells per column.
     pub(crate) fn put(&self, field: &[f64], factor: f64, rows: usize, onto: &mut [f64]) {
         self.for_each_entry(field.len(), rows, |n, m, part| {
             onto[m] += factor * part * field[n];
         });
     }
 
-    /// Adds S^T times `field` to `onto`.
+    /// Adds the field shifted back, S^T f, to `onto`; fields have `rows` cells per column.
     pub(crate) fn read(&self, field: &[f64], rows: usize, onto: &mut [f64]) {
         self.for_each_entry(field.len(), rows, |n, m, part| onto[n] += part * field[m]);
     }

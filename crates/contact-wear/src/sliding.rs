@@ -91,7 +91,8 @@ pub(crate) struct Sliding {
 }
 
 impl Sliding {
-    /// Starts on unworn surfaces, or with the pressures of a state.
+    /// Solves the pressures at all places of the stroke on the surfaces `worn` so far, or takes over the
+    /// pressures of a state.
     pub(crate) fn new(
         scene: &Scene,
         wear: &Wear,
@@ -160,7 +161,7 @@ impl Sliding {
         Ok(sliding)
     }
 
-    /// Solves the pressures at all places of surfaces worn so far.
+    /// Solves the pressures at all places on the surfaces worn so far, so that the results belong to them.
     pub(crate) fn settle(&mut self, worn: &Worn) -> Result<(), Error> {
         self.cycles = worn.cycles;
         self.lay_bed(&worn.bed);
@@ -176,7 +177,7 @@ impl Sliding {
         self.aerate(worn)
     }
 
-    /// Computes the aerated share and the coefficients of friction of the present contact.
+    /// Computes the aerated share and the coefficients of friction for the present pressures.
     fn aerate(&mut self, worn: &Worn) -> Result<(), Error> {
         self.aerated.clear();
         if let Some(third_body) = self.third_body.take() {
@@ -203,7 +204,7 @@ impl Sliding {
         Ok(())
     }
 
-    /// Coefficients of the cells of a body b, before their dependence on cycles.
+    /// Coefficients of friction of the cells of body b, before their dependence on cycles.
     fn mu_of_body(
         &self,
         surface: &SurfaceFriction,
@@ -225,8 +226,8 @@ impl Sliding {
             .collect()
     }
 
-    /// A field of a body in the coordinates of the other: its mean over what passes, weighted with
-    /// the pressure.
+    /// A field of body `from` in the coordinates of the other body: for each cell the mean over all cells that
+    /// pass it, weighted with the pressure.
     fn carry_across(&self, field: &[f64], from: usize) -> Vec<f64> {
         let largest = self.p.iter().flatten().fold(0.0, |m: f64, p| m.max(*p));
         let least = 1e-9 * largest + f64::MIN_POSITIVE;
@@ -251,9 +252,8 @@ impl Sliding {
         cells.map(mean).collect()
     }
 
-    /// The loss of both bodies in n cycles; sets the pressures at the end. Rates that change with the
-    /// pressure are corrected until the depth settles. Rates that stay the same need no correction, whoever
-    /// wrote the law.
+    /// The loss of both bodies in n cycles; sets the pressures at its end. If `implicit`, it follows from
+    /// these. Rates that change with the pressure are corrected until the depth settles.
     pub(crate) fn jump(&mut self, worn: &Worn, n: f64, implicit: bool) -> Result<Loss, Error> {
         self.cycles = worn.cycles;
         if let Some(third_body) = self.third_body.take() {
@@ -291,7 +291,8 @@ impl Sliding {
         unreachable!("the last correction returns")
     }
 
-    /// Solves the jump with oxygen and debris, which follow from the contact at the end of the jump.
+    /// The loss of both bodies in n cycles with oxygen and debris, which follow from the contact at the end of
+    /// the jump.
     fn jump_with_third_body(
         &mut self,
         third_body: &ThirdBody,
@@ -333,7 +334,7 @@ impl Sliding {
         Err(fixed_point.not_converged())
     }
 
-    /// Lays debris into the gap, where the run has a bed.
+    /// Lays the bed of debris \[m\] into the gap, if the run has one.
     fn lay_bed(&mut self, bed: &[f64]) {
         if self.wear.bed.is_some() {
             self.bed.clear();
@@ -341,7 +342,8 @@ impl Sliding {
         }
     }
 
-    /// The contact that the third body meets under the present pressures, with this aerated share.
+    /// Gap, pressure, dissipated energy and slip under the present pressures, from which oxygen and debris
+    /// follow; `aerated` is the aerated share so far.
     fn meet(&mut self, worn: &Worn, aerated: &[f64]) -> Contact {
         let (cells, s) = (self.pressing.cells(), self.slip_distance());
         let mut contact = Contact {
@@ -382,8 +384,8 @@ impl Sliding {
         contact
     }
 
-    /// The fresh debris of a loss in the cells of the grid, spread over the stroke \[m\], and the sum
-    /// that leaves at once; `aerated` shares of both bodies.
+    /// The fresh debris of a loss in the cells of the grid, spread over the stroke \[m\], and the sum of what
+    /// leaves the contact at once. `aerated` are the aerated shares in the coordinates of both bodies.
     fn supply(
         &self,
         third_body: &ThirdBody,
@@ -412,8 +414,8 @@ impl Sliding {
         (supply, lost)
     }
 
-    /// A field of the grid in the coordinates of each body: its mean over what passes, weighted with the
-    /// pressure.
+    /// A field of the grid in the coordinates of each body: for each cell the mean over all that passes it,
+    /// weighted with the pressure; `outside` where nothing passes.
     fn carry(&self, field: &[f64], outside: f64) -> [Vec<f64>; 2] {
         if field.is_empty() {
             return [vec![], vec![]];
@@ -438,7 +440,7 @@ impl Sliding {
         })
     }
 
-    /// The rounds over all places at given rates, accelerated.
+    /// Solves the pressures at all places at given rates, round by round, accelerated, until they settle.
     fn iterate(&mut self, worn: &Worn, n: f64, rates: &Rates) -> Result<(), Error> {
         let mut momentum = 1.0_f64;
         let (mut around, mut last) = (self.p.clone(), self.p.clone());
@@ -474,7 +476,8 @@ impl Sliding {
         Ok(())
     }
 
-    /// One round over the places: minimises the majorant of the energy at the pressures `around`.
+    /// Solves the pressure at each place once, with the others kept: minimises the majorant of the energy at
+    /// the pressures `around`.
     fn one_round(
         &mut self,
         worn: &Worn,
@@ -511,7 +514,7 @@ impl Sliding {
         Ok(())
     }
 
-    /// The place next to the middle of the stroke.
+    /// Index of the place next to the middle of the stroke.
     pub(crate) fn middle(&self) -> usize {
         let distance = |i: &usize| self.places[*i].shift.abs();
         (0..self.places.len())
@@ -571,6 +574,8 @@ impl Sliding {
         self.mu * factor
     }
 
+    /// The loss of n cycles at given rates; `ways` are the integrals of p |ds| over a cycle, in the coordinates
+    /// of each body.
     fn loss(&self, n: f64, rates: &Rates, ways: &[Vec<f64>; 2]) -> Loss {
         let depth = [0, 1].map(|b| rates.depth(b, n, &ways[b]).collect());
         let mu = self.mu();
@@ -793,6 +798,7 @@ struct Contact {
 }
 
 impl Contact {
+    /// The fields that the third body needs, by reference.
     fn meeting(&self) -> Meeting<'_> {
         Meeting {
             gap: &self.gap,
@@ -839,6 +845,7 @@ struct Buffers {
 }
 
 impl Buffers {
+    /// Allocates buffers for so many cells.
     fn new(cells: usize) -> Self {
         Self {
             ways: [vec![0.0; cells], vec![0.0; cells]],

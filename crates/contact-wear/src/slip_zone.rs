@@ -18,8 +18,9 @@ const VOLUME: f64 = 0.4;
 /// Fewest cells that count: a zone without a whole cell is known to half of one.
 const FEWEST: f64 = 0.5;
 
-/// Errors of deepest depth and volume, over them; zero where nothing sticks.
-pub(crate) fn errors(cells: f64, stick_ratio: f64) -> [f64; 2] {
+/// Relative errors of deepest depth and of volume by the cells, if so many `cells` lie across the slip zone;
+/// zero in gross slip.
+pub(crate) fn relative_cell_errors(cells: f64, stick_ratio: f64) -> [f64; 2] {
     if stick_ratio > 0.0 {
         [DEPTH, VOLUME].map(|part| part / cells.max(FEWEST))
     } else {

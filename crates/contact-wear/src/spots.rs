@@ -46,7 +46,7 @@ fn spots(p: &[f64], rows: usize) -> Vec<Spot> {
     spots
 }
 
-/// The width such that spots at most as wide bear a quarter of the load; `least` without a spot.
+/// The width for which spots at most as wide bear a quarter of the load; `least` without a spot.
 fn quarter_width(mut spots: Vec<Spot>, width: impl Fn(&Spot) -> f64, least: f64) -> f64 {
     spots.sort_unstable_by(|a, b| width(a).total_cmp(&width(b)));
     let total: f64 = spots.iter().map(|spot| spot.load).sum();
@@ -63,7 +63,7 @@ pub(crate) fn half_width_in_cells(p: &[f64], rows: usize) -> f64 {
     quarter_width(spots(p, rows), |spot| 0.5 * spot.cells as f64, 0.5)
 }
 
-/// Error of the deepest depth \[m\] that the cells leave while it grows by `grown` \[m\] under a pressure.
+/// Error of the deepest depth by the cells \[m\], while it grows by `grown` \[m\] under the pressure p.
 pub(crate) fn depth_error(grown: f64, p: &[f64], rows: usize) -> f64 {
     let c = quarter_width(spots(p, rows), |spot| 0.5 * spot.load / spot.peak, 0.5);
     CELLS * grown.max(0.0) / (c * c)

@@ -145,7 +145,7 @@ impl WearState {
     }
 }
 
-/// Mean of a share over the cells in contact; 1 without one.
+/// Mean of a share over the cells in contact; 1 without contact.
 fn mean_under_pressure(share: &[f64], p: &[f64]) -> f64 {
     let touching = share.iter().zip(p).filter(|(_, p)| **p > 0.0);
     let (sum, count) = touching.fold((0.0, 0.0), |(sum, count), (s, _)| (sum + s, count + 1.0));

@@ -28,7 +28,8 @@ pub(crate) enum Frame {
 }
 
 impl Frame {
-    /// Body 1, unless it is straight along x and body 2 is not: the contact then stays on body 2.
+    /// The body on which the grid lies: body 1. If body 1 is straight along x and body 2 is not, the contact
+    /// stays on body 2.
     pub(crate) fn new(scene: &Scene) -> Self {
         let straight = [&scene.body1, &scene.body2].map(|body| body.shape.is_straight_along_x());
         if scene.body1.shape == Shape::Flat || (straight[0] && !straight[1]) {
@@ -170,6 +171,7 @@ pub(crate) fn stroke(
     Ok((places, corners))
 }
 
+/// Fails if the scene cannot be solved as a stroke of gross slip; `rigid` if no spring of a rig drives it.
 fn check(scene: &Scene, first_branch: usize, rigid: bool) -> Result<(), Error> {
     let refuse =
         |key: String, value: String, allowed: &str| Err(Error::invalid(key, value, allowed));

@@ -66,8 +66,8 @@ impl SurfaceFriction {
         self.layers[layer.min(self.layers.len() - 1)]
     }
 
-    /// The coefficient of a cell c, from the one of its layer; without oxygen and debris where the
-    /// fields are empty.
+    /// The coefficient of cell c, from the one of its bare layer, with the factors of oxygen and debris; empty
+    /// fields leave a factor out.
     pub(crate) fn combine(&self, of_layer: f64, c: usize, aerated: &[f64], bed: &[f64]) -> f64 {
         let mut mu = of_layer;
         if let (Some(starved), Some(s)) = (self.starved, aerated.get(c)) {
@@ -86,7 +86,8 @@ impl SurfaceFriction {
             .collect()
     }
 
-    /// The coefficients of cells whose surfaces lie still.
+    /// The coefficients of cells of the grid, on which the surfaces do not move, at the worn depths of the body
+    /// \[m\].
     pub(crate) fn of_cells(&self, worn: &[f64], aerated: &[f64], bed: &[f64]) -> Vec<f64> {
         let mu = |(c, worn): (usize, &f64)| {
             self.combine(self.mu_of_layer(self.layer(*worn)), c, aerated, bed)

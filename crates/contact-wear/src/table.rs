@@ -123,6 +123,7 @@ impl Wear {
         Ok((scene, wear))
     }
 
+    /// Puts the user's own laws in the place of their placeholders.
     fn set_laws(&mut self, own: &[Vec<Arc<dyn Law>>; 2]) {
         let bodies = self.bodies.iter_mut().zip(own);
         bodies.for_each(|(body, own)| body.set_user_laws(own));
@@ -183,6 +184,7 @@ impl Wear {
     }
 }
 
+/// Reads and checks a scene and its wear. A cycle that follows from a load history is not checked.
 fn read(text: &str, file: &str, settings: &[String], reach: Reach) -> Result<(Scene, Wear), Error> {
     let (scene, wear, has_history) = read_unchecked(text, file, settings, reach)?;
     wear.check_settings(&scene)?;
@@ -224,6 +226,7 @@ fn rig_stiffness(wear: &Section<'_>) -> Result<Option<f64>, Fault> {
     Ok(K.filter(|K| K.is_finite()))
 }
 
+/// Reads the table `[wear]`, not yet checked for meaning.
 fn wear(section: &Section<'_>) -> Result<Wear, Fault> {
     let bodies = [body(section, "body1")?, body(section, "body2")?];
     let cycles = section.number("cycles", "a number of cycles above 0", &[])?;
@@ -296,6 +299,7 @@ fn branch_counts(section: &Section<'_>) -> Result<Vec<f64>, Fault> {
     })
 }
 
+/// Reads the laws of a body: one for all its layers, or a list.
 fn body(wear: &Section<'_>, name: &str) -> Result<BodyWear, Fault> {
     let Some(section) = wear.section(name, &BODY)? else {
         return Ok(BodyWear::default());
@@ -319,6 +323,8 @@ fn body(wear: &Section<'_>, name: &str) -> Result<BodyWear, Fault> {
     Ok(BodyWear { laws, share })
 }
 
+/// Reads a law of wear: Archard's by `k`, of the dissipated energy by `alpha`, or a placeholder for a user's
+/// law.
 fn law(section: &Section<'_>) -> Result<Arc<dyn Law>, Fault> {
     if section.get("own").is_some() {
         return Ok(Arc::new(LawPlaceholder));
@@ -346,7 +352,7 @@ fn law(section: &Section<'_>) -> Result<Arc<dyn Law>, Fault> {
     })
 }
 
-/// A law of a coefficient, which differs without oxygen if `starved` is given.
+/// A law with a coefficient; with `starved` it is weighted with a second one for cells without oxygen.
 fn in_air<L: Law + 'static>(
     coefficient: f64,
     starved: Option<f64>,
@@ -363,6 +369,7 @@ fn in_air<L: Law + 'static>(
     }
 }
 
+/// Reads the factor of a law that depends on a variable; none without one.
 fn factor(law: &Section<'_>) -> Result<Option<Factor>, Fault> {
     let Some(section) = law.section("factor", &["of", "table"])? else {
         return Ok(None);
@@ -377,10 +384,12 @@ fn factor(law: &Section<'_>) -> Result<Option<Factor>, Fault> {
 struct LawPlaceholder;
 
 impl Law for LawPlaceholder {
+    /// Cannot be called: such a law fails its check.
     fn depth(&self, _: &CellCycle<'_>, _: &mut [f64]) -> Result<(), Error> {
         self.check("wear")
     }
 
+    /// Fails: the law has to be given again with the run.
     fn check(&self, key: &str) -> Result<(), Error> {
         let allowed = "given again with the run: a function, which no file can hold";
         Err(Error::invalid(format!("{key}.laws"), "own", allowed))

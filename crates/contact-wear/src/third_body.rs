@@ -122,7 +122,7 @@ impl ThirdBody {
         })
     }
 
-    /// The fields before a jump: the oxygen of the present contact, the bed as it lies.
+    /// The fields before a jump: the oxygen of the present contact, and the bed as it lies.
     pub(crate) fn begin(&self, worn: &Worn, meeting: &Meeting<'_>) -> Result<ThirdFields, Error> {
         let mut fields = ThirdFields::default();
         let region = self.region(meeting);
@@ -134,8 +134,9 @@ impl ThirdBody {
         Ok(fields)
     }
 
-    /// The fields that a jump of n cycles leaves: the debris of the `supply` (fresh debris per area that
-    /// enters the bed) and the oxygen.
+    /// The fields after a jump of n cycles: the bed with the `supply` (fresh debris per area that enters it)
+    /// added and spread, and the oxygen. `lost` is the debris that left at once, `last` the fields that the
+    /// jump was solved with.
     pub(crate) fn respond(
         &self,
         worn: &Worn,
@@ -184,6 +185,7 @@ impl ThirdBody {
         Region::from_levels(self.lattice, &level)
     }
 
+    /// Computes oxygen and aerated share in the closed region.
     fn aerate(
         &self,
         region: &Region,
@@ -207,6 +209,7 @@ impl ThirdBody {
         Ok(())
     }
 
+    /// Computes the factor by which the bed reduces wear, if it does.
     pub(crate) fn protect(&self, fields: &mut ThirdFields) {
         if let Some(bed) = self.bed.filter(|bed| bed.protecting_thickness.is_some()) {
             fields.protection = fields.bed.iter().map(|h| bed.protection(*h)).collect();
@@ -223,7 +226,8 @@ impl ThirdBody {
         [bed.volume_ratio * (1.0 - lost), bed.volume_ratio * lost]
     }
 
-    /// Difference of two evaluations that ends the fixed point: root of the sum of squares \[m\].
+    /// Change between two evaluations that is small enough to end the iteration: root of the sum of squares of
+    /// the depths \[m\].
     pub(crate) fn enough(&self, loss: &[Vec<f64>; 2], worn: &Worn) -> f64 {
         let norm = |depth: &[Vec<f64>; 2]| -> f64 {
             depth.iter().flatten().map(|w| w * w).sum::<f64>().sqrt()

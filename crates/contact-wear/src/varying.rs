@@ -95,6 +95,7 @@ pub struct Varying {
 }
 
 impl Law for Varying {
+    /// The depth by the law, times the factor of each cell.
     fn depth(&self, cycle: &CellCycle<'_>, depth: &mut [f64]) -> Result<(), Error> {
         self.law.depth(cycle, depth)?;
         self.factor.multiply(cycle, depth);
@@ -140,6 +141,7 @@ impl Law for Varying {
         of_loading && self.law.is_steady()
     }
 
+    /// Bends of the law, and the rows of the factor's table over this variable.
     fn bends(&self, variable: FactorVariable) -> Vec<f64> {
         let mut bends = self.law.bends(variable);
         if self.factor.variable == variable {

@@ -56,8 +56,8 @@ impl SweptScar<'_> {
         Some([room(x + away, grid.nx), across])
     }
 
-    /// How far the worn contact reaches from the middle along x and y \[m\], on a grid that is so many times
-    /// as long; `None` if it reaches the border of that.
+    /// How far the worn contact reaches from the middle along x and y \[m\], on a grid that is `times` as long;
+    /// `None` if it reaches the border of that grid.
     fn reach(&self, times: f64) -> Option<[f64; 2]> {
         let grid = Grid {
             dx: times * self.scene.grid.dx,

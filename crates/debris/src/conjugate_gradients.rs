@@ -23,6 +23,7 @@ pub struct NotConverged {
 }
 
 impl fmt::Display for NotConverged {
+    /// The message with the residual.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
@@ -84,6 +85,7 @@ struct Factor<'a> {
 }
 
 impl<'a> Factor<'a> {
+    /// Factorises the matrix incompletely (zero fill-in), as the preconditioner.
     fn new(matrix: &'a Matrix) -> Self {
         let count = matrix.diagonal.len();
         // Entries towards +x and +y.

@@ -17,7 +17,7 @@ pub struct Lattice {
 }
 
 impl Lattice {
-    /// Cells of a line contact, which has one row.
+    /// The cells of a line contact: one row.
     pub fn line(columns: usize, dx: f64) -> Self {
         Self {
             columns,

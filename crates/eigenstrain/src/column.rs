@@ -75,7 +75,8 @@ fn inverse(a: Square) -> Square {
 pub(crate) struct Reduced;
 
 impl Reduced {
-    /// M (3), P (4), Q (4), D (3), G (4); M, P, Q, D, G of u_2.
+    /// Packs the factors of a column in the order in which they are read: M (3), P (4), Q (4), D (3), G (4),
+    /// and the five of the displacement across the wave.
     fn packed(
         m: Square,
         p: Square,
@@ -156,7 +157,8 @@ struct Nodes<T> {
     moved: [T; 3],
 }
 
-/// Stiffness of an element for (v, w), and for u_2.
+/// Stiffness of an element of the thickness h at the wave number k, for displacements in the plane of the wave
+/// (v, w), and across it (u_2).
 fn stiffnesses(h: f64, k: f64, [lambda, mu]: [f64; 2]) -> (Nodes<Square>, Nodes<f64>) {
     let mut plane = Nodes {
         between: [[[[0.0; 2]; 2]; 3]; 3],

@@ -26,6 +26,7 @@ pub(crate) struct Chunk {
 }
 
 impl Chunk {
+    /// Computes the factors of all wave numbers, in parallel.
     fn new(mesh: &Mesh, waves: &[Wave]) -> Self {
         let mut chunk = Self {
             k: [1.0; LANES],

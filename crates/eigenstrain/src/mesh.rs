@@ -31,6 +31,7 @@ impl Layer {
         [2.0 * mu * self.nu / (1.0 - 2.0 * self.nu), mu]
     }
 
+    /// Fails at moduli or a thickness without meaning; `n` is the number of the layer.
     fn check(&self, n: usize) -> Result<(), Error> {
         if !(self.E > 0.0 && self.E.is_finite()) {
             let key = format!("layers[{n}].E");
@@ -67,6 +68,7 @@ pub struct Cells {
 }
 
 impl Cells {
+    /// Fails at numbers or sides of cells that the transforms cannot take.
     fn check(&self) -> Result<(), Error> {
         for (key, n) in [("nx", self.nx), ("ny", self.ny)] {
             if n == 0 {
@@ -314,7 +316,7 @@ impl Mesh {
         bottom - top
     }
 
-    /// Depth of a plane \[m\].
+    /// Depth of a Gauss plane below the surface \[m\].
     pub fn depth(&self, plane: usize) -> f64 {
         let [top, bottom] = self.edges(plane / PLANES_PER_ELEMENT);
         let sign = if plane.is_multiple_of(PLANES_PER_ELEMENT) {

@@ -48,7 +48,7 @@ pub struct Operator {
 }
 
 impl Operator {
-    /// Factors of every wave number of the mesh.
+    /// Computes the factors of every wave number of the mesh.
     pub fn new(mesh: Mesh) -> Self {
         let transform = Transform::new(&mesh.cells);
         let chunks = Chunk::all(&mesh, transform.waves());
@@ -142,7 +142,7 @@ impl Operator {
         );
     }
 
-    /// Transforms of the sources.
+    /// Transforms eigenstrains and tractions to waves.
     fn read(&mut self, sources: Sources<'_>) {
         let (cells, stride) = (self.mesh.cells.len(), self.stride);
         let (transform, mesh) = (&self.transform, &self.mesh);
@@ -184,7 +184,7 @@ impl Operator {
     }
 }
 
-/// tau = C : e = 2 mu e + lambda tr e.
+/// The polarisation stress of an eigenstrain e: tau = C : e = 2 mu e + lambda tr e.
 fn polarise([lambda, mu]: [f64; 2], strain: &[f64], tau: &mut [f64]) {
     let cells = strain.len() / COMPONENTS;
     for (to, of) in tau.iter_mut().zip(strain) {

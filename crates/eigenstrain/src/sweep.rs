@@ -26,6 +26,7 @@ pub(crate) struct Scratch {
 }
 
 impl Scratch {
+    /// Allocates the buffers of one thread.
     pub(crate) fn new(mesh: &Mesh) -> Self {
         Self {
             right: vec![[ZERO; 3]; mesh.elements()],
@@ -53,6 +54,7 @@ pub(crate) struct Rows<'a> {
 }
 
 impl Rows<'_> {
+    /// Real and imaginary parts of one row of a chunk of waves.
     fn lane(&self, all: &[Complex64], row: usize) -> Parts {
         let at = row * self.stride + self.from;
         let of = &all[at..at + LANES];
@@ -64,7 +66,7 @@ impl Rows<'_> {
         parts
     }
 
-    /// The polarisation of a plane in the axes of the wave.
+    /// The polarisation stress of a plane, turned into the axes of each wave.
     fn turned(&self, chunk: &Chunk, plane: usize) -> Turned {
         let [xx, yy, zz, xy, xz, yz]: [Parts; COMPONENTS] =
             std::array::from_fn(|c| self.lane(self.polarisation, COMPONENTS * plane + c));
@@ -138,7 +140,7 @@ pub(crate) fn sweep(
 type Node = [Parts; 3];
 const ZERO_NODE: Node = [ZERO; 3];
 
-/// (v, w, u_2) of the surface from its right-hand side.
+/// Solves for the displacements (v, w, u_2) of the surface from its condensed right-hand side.
 fn of_surface(chunk: &Chunk, right: &Node) -> Node {
     let mut u = ZERO_NODE;
     let [vv, vw, ww, out] = &chunk.top;
@@ -153,7 +155,8 @@ fn of_surface(chunk: &Chunk, right: &Node) -> Node {
     u
 }
 
-/// The pass up: right-hand sides, condensed; returns the surface's.
+/// The pass from the bottom to the surface: right-hand sides of the elements, condensed; returns the one of the
+/// surface.
 fn up(mesh: &Mesh, chunk: &Chunk, rows: Rows<'_>, scratch: &mut Scratch) -> Node {
     let mut below = ZERO_NODE;
     let lowest = rows.filled.iter().rposition(|filled| *filled);
@@ -226,7 +229,7 @@ fn add_tractions(chunk: &Chunk, rows: Rows<'_>, tractions: &[Complex64], right: 
     }
 }
 
-/// The middle and the lower node of an element from its upper one.
+/// Displacements of the middle and the lower node of an element, from the upper one.
 fn lower_nodes(chunk: &Chunk, element: usize, scratch: &Scratch, upper: &Node) -> [Node; 2] {
     let F = &chunk.elements[element];
     let (right, condensed) = (&scratch.right[element], &scratch.middle[element]);
@@ -251,7 +254,7 @@ fn lower_nodes(chunk: &Chunk, element: usize, scratch: &Scratch, upper: &Node) -
     [middle, lower]
 }
 
-/// u_x, u_y, u_z of the surface.
+/// Turns the displacement of the surface into the axes of the scene: u_x, u_y, u_z.
 fn displacement(chunk: &Chunk, u: &Node, to: &mut [Parts]) {
     for part in 0..2 {
         // -i v has the parts (Im v, -Re v).

@@ -36,6 +36,7 @@ pub(crate) struct Transform {
 }
 
 impl std::fmt::Debug for Transform {
+    /// Prints the size alone.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Transform")
             .field("periods", &self.periods)
@@ -65,6 +66,7 @@ pub(crate) struct Buffers {
 const TOGETHER: usize = 6;
 
 impl Transform {
+    /// Plans the transforms of the cells: fast ones, and products for the slow waves.
     pub(crate) fn new(cells: &Cells) -> Self {
         let periods = Periods::from_cells(cells);
         let mut real = RealFftPlanner::new();
@@ -126,6 +128,7 @@ impl Transform {
         self.even.ncols()
     }
 
+    /// Allocates the buffers of one thread.
     pub(crate) fn buffers(&self) -> Buffers {
         let zero = Complex64::default();
         let scratch = self.forward.get_scratch_len();
@@ -150,7 +153,8 @@ impl Transform {
         }
     }
 
-    /// Up to six fields on the cells, one after the other, to rows of waves of length `stride`.
+    /// Transforms up to six fields on the cells, one after the other, to rows of waves, which are `stride`
+    /// numbers apart.
     pub(crate) fn to_waves(
         &self,
         fields: &[f64],
@@ -199,6 +203,7 @@ impl Transform {
         }
     }
 
+    /// Transforms a field on the cells to its waves.
     fn transform(&self, field: &[f64], to: &mut [Complex64], b: &mut Buffers) {
         let (half, slow) = (self.periods.half(), self.periods.slow);
         for (i, values) in field.chunks_exact(self.fast_cells).enumerate() {
@@ -269,6 +274,7 @@ impl Transform {
         }
     }
 
+    /// Transforms waves (`wave` returns the amplitude of one) back to a field on the cells.
     fn transform_back(
         &self,
         wave: impl Fn(usize) -> Complex64,
@@ -363,7 +369,7 @@ fn in_basis(basis: &Array2<f64>, phases: &[f64]) -> Array2<f64> {
     all
 }
 
-/// Products of both sides: the real ones, and the imaginary ones.
+/// Products of the waves of both sides: the ones with real, and the ones with imaginary factors.
 fn products(slow: &Array2<f64>, fast: &Array2<f64>, waves: usize) -> (Array2<f64>, Array2<f64>) {
     let pairs = || (0..slow.nrows()).flat_map(|p| (0..fast.nrows()).map(move |q| (p, q)));
     let table = |parity: usize| {

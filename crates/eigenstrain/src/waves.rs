@@ -47,6 +47,8 @@ pub(crate) struct Periods {
 }
 
 impl Periods {
+    /// The periods of the fast transforms in cells: long enough that images do not overlap, and of small prime
+    /// factors.
     pub(crate) fn from_cells(cells: &Cells) -> Self {
         if cells.plane_strain {
             return Self {

@@ -51,7 +51,7 @@ struct BoundaryBall<const D: usize> {
 }
 
 impl<const D: usize> Search<D> {
-    /// The smallest ball round at least one block of points.
+    /// The smallest ball around points, at least one block of them.
     pub(crate) fn ball(&mut self, points: &Points<D>) -> Ball<D> {
         let point = |k: usize| points[k / LANES].map(|lanes| lanes[k % LANES]);
         self.likely.retain(|k| *k < points.len() * LANES);
@@ -101,8 +101,8 @@ impl<const D: usize> Search<D> {
     }
 }
 
-/// Finds the smallest ball round the first `end` of the points `likely` that has the points of `on`
-/// on its border. Points that end up on the border move to the front.
+/// Finds the smallest ball around the first `end` of the points `likely` that has the points of `on` on its
+/// border (E. Welzl). Points that end up on the border move to the front of `likely`.
 fn welzl<const D: usize>(
     likely: &mut [usize],
     end: usize,
@@ -127,6 +127,7 @@ fn welzl<const D: usize>(
 }
 
 impl<const D: usize> BoundaryBall<D> {
+    /// A ball without any point.
     fn empty() -> Self {
         Self {
             first: [0.0; D],
@@ -138,12 +139,14 @@ impl<const D: usize> BoundaryBall<D> {
         }
     }
 
+    /// Whether a point lies in the ball, to rounding.
     fn contains(&self, point: &[f64; D]) -> bool {
         let square: f64 = (0..D).map(|d| (point[d] - self.centre[d]).powi(2)).sum();
         self.square >= 0.0 && square <= self.square * (1.0 + OUTSIDE)
     }
 
-    /// Adds a point to the border; returns `None` if it lies in the flat of the others.
+    /// Adds a point to the border and returns the smallest ball with all these border points; `None` if the
+    /// point lies in the flat through the others.
     fn with_border_point(&self, point: &[f64; D]) -> Option<Self> {
         let mut larger = *self;
         larger.held += 1;
@@ -177,6 +180,7 @@ impl<const D: usize> BoundaryBall<D> {
         Some(larger)
     }
 
+    /// The ball of this centre with the squared radius `square`.
     fn with_radius(&self, square: f64) -> Ball<D> {
         Ball {
             centre: self.centre,
@@ -185,6 +189,7 @@ impl<const D: usize> BoundaryBall<D> {
     }
 }
 
+/// Dot product.
 fn dot<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

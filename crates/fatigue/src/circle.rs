@@ -69,6 +69,7 @@ impl Circles {
         }
     }
 
+    /// The circle of this squared radius with the points that define it.
     fn to_circle(&self, square: f64, point: &impl Fn(usize) -> [f64; 2]) -> Circle {
         Circle {
             radius: square.sqrt(),
@@ -92,6 +93,8 @@ struct Farthest<'a> {
 impl WithSimd for Farthest<'_> {
     type Output = (f64, usize);
 
+    /// Finds the squared distance and the index of the point farthest from the centre, with vectors of the
+    /// processor.
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> (f64, usize) {
         let Disc { x, y, .. } = self.centre;
@@ -128,7 +131,8 @@ impl WithSimd for Farthest<'_> {
     }
 }
 
-/// Returns the points that define the circle: with a right or obtuse angle two of the three.
+/// The points that define the smallest circle: all three, or the two on its diameter if their triangle has a
+/// right or obtuse angle.
 pub(crate) fn defining_points(on: [usize; 3], point: &impl Fn(usize) -> [f64; 2]) -> [usize; 3] {
     let [a, b, c] = on;
     let side = |i: usize, j: usize| {
@@ -147,8 +151,7 @@ pub(crate) fn defining_points(on: [usize; 3], point: &impl Fn(usize) -> [f64; 2]
     }
 }
 
-/// The smallest circle round the point k and the points of `on`, with k on its border; also its
-/// points.
+/// The smallest circle around point k and the points `on`, with k on its border, and the points that define it.
 pub(crate) fn circle_with_point(
     k: usize,
     on: [usize; 3],

@@ -26,7 +26,7 @@ pub(crate) enum Combination {
 }
 
 impl Combination {
-    /// a + w b on the plane where a is largest.
+    /// The combination a + w b on the plane where the first part a is largest.
     pub(crate) fn on_largest_first_part(weight: f64) -> Self {
         Self::First { weight, tie: TIE }
     }
@@ -42,7 +42,7 @@ impl Combination {
         }
     }
 
-    /// The function that the search maximises.
+    /// The function of the two parts that the search maximises.
     pub(crate) fn value(&self, [a, b]: [f64; 2]) -> f64 {
         match self {
             Self::Sum(weight) => a + weight * b,
@@ -62,7 +62,8 @@ impl Combination {
         }
     }
 
-    /// [`TIED`] if the first part alone decides on the plane, else 0.
+    /// Relative difference of first parts below which two planes tie: [`TIED`] if the first part alone decides,
+    /// else 0.
     pub(crate) fn tie(&self) -> f64 {
         if matches!(self, Self::First { .. }) {
             TIED
@@ -79,7 +80,7 @@ impl Combination {
         }
     }
 
-    /// A value that is not small: the criterion for this first part and a normal stress of 1.
+    /// A value that is not small, for tolerances: the criterion for this first part and a normal stress of 1.
     pub(crate) fn yardstick(&self, first: f64) -> f64 {
         match self {
             Self::Sum(weight) => first + weight,

@@ -131,7 +131,8 @@ impl Criterion {
         Some(E / (1.0 + nu))
     }
 
-    /// The method of evaluation, for stresses in a unit \[Pa\].
+    /// How the criterion is evaluated: a combination on planes or a function of the smallest sphere. Stresses
+    /// are in a `unit` \[Pa\].
     pub(crate) fn acts(&self, unit: f64) -> Acts {
         (self.definition.method)(self.numbers, unit)
     }

@@ -26,7 +26,7 @@
 //! first part is the shear amplitude and decides alone, the search may find one of the two. The
 //! other one is always compared with it.
 
-use crate::face_limit::Limit;
+use crate::face_limit::FaceBound;
 use crate::hemisphere::{Face, arc_midpoint};
 use crate::lanes::LANES;
 use crate::path::dot;
@@ -100,7 +100,8 @@ const SAME: f64 = 1.0 - 2e-6;
 const PIECES: usize = 24;
 
 impl Search {
-    /// The plane on which `f` is largest.
+    /// Finds the plane on which `f` is largest: all planes of a triangulation, then finer triangles wherever
+    /// their bounds allow a larger value.
     pub(crate) fn peak(&self, f: &mut impl PlaneFunction, buffers: &mut Buffers) -> Peak {
         let start = f.first_faces();
         buffers.tried.clear();
@@ -136,7 +137,7 @@ impl Search {
                 ..
             } = record;
             faces.clear();
-            let limit = Limit::new(&bend, tangent, best.value);
+            let limit = FaceBound::new(&bend, tangent, best.value);
             for face in among {
                 let bound = limit.bound(f, face, planes);
                 if bound > best.value {
@@ -264,7 +265,7 @@ impl Buffers {
         }
     }
 
-    /// Refines the pieces at the corners of the remaining faces that may exceed the best.
+    /// Refines the pieces at the corners of the faces that are left, where these may exceed the best value.
     fn try_remaining_pieces(&mut self, f: &mut impl PlaneFunction, best: &mut Peak) {
         self.corners.clear();
         self.corners

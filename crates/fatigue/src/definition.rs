@@ -91,6 +91,7 @@ impl Definition {
     }
 }
 
+/// A number of a criterion, with the values that are allowed.
 const fn parameter(name: &'static str, allowed: Allowed) -> Parameter {
     Parameter { name, allowed }
 }

@@ -53,6 +53,7 @@ pub(crate) struct ThreePointCircle {
 }
 
 impl<F: Real> Instants<F> {
+    /// Buffers without any instant.
     pub(crate) fn new() -> Self {
         Self {
             stress: Vec::new(),
@@ -81,9 +82,9 @@ impl<F: Real> Instants<F> {
         self.shear.resize(self.stress.len(), none);
     }
 
-    /// Largest normal stress on the planes of eight unit normals, largest and smallest of
-    /// `strain[0]` times the normal stress of S* less `strain[1]` times the sum of its normal stresses,
-    /// and, where `shear` is asked for, the shear of S* at every instant, which stays here.
+    /// Evaluates the planes of eight unit normals n over all instants: the largest normal stress and, with
+    /// `strain` = (a, b), the extremes of a n.S*.n - b tr S*. With `shear`, the shear of S* at every instant is
+    /// kept for [`Self::circles`].
     pub(crate) fn sweep(
         &mut self,
         n: &[Eight<f64>; 3],
@@ -167,8 +168,8 @@ impl<F: Real> Instants<F> {
         }
     }
 
-    /// Squared radii of circles round the shear on each plane: of the smallest circle, or any with
-    /// at most `enough`.
+    /// Squared radii of the smallest circles around the shear on each of eight planes. A lane that has at most
+    /// the radius `enough` may stop early.
     pub(crate) fn circles(&mut self, lanes: &mut [ThreePointCircle]) -> Eight<f64> {
         let shear = &self.shear;
         let mut centres = [[F::near(0.0); LANES]; 2];
@@ -215,7 +216,7 @@ impl<F: Real> Instants<F> {
     }
 }
 
-/// S and S*: the stress, where S* is empty.
+/// S and S*; where S* is empty it is the stress.
 fn stress_and_strain<'a, F>(stress: &'a [[F; 6]], strained: &'a [[F; 6]]) -> [&'a [[F; 6]]; 2] {
     let strain_source = if strained.is_empty() {
         stress
@@ -237,6 +238,7 @@ struct Sweep<'a, F, const SHEAR: bool, const STRAIN: bool> {
 impl<F: Real, const SHEAR: bool, const STRAIN: bool> WithSimd for Sweep<'_, F, SHEAR, STRAIN> {
     type Output = PlaneExtrema<F>;
 
+    /// Runs the sweep with vectors of the processor.
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> PlaneExtrema<F> {
         let Self {
@@ -298,6 +300,7 @@ struct Mix<'a, F, const STRAIN: bool> {
 impl<F: Real, const STRAIN: bool> WithSimd for Mix<'_, F, STRAIN> {
     type Output = PairExtrema<F>;
 
+    /// Runs the sweep over pairs with vectors of the processor.
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> PairExtrema<F> {
         let Self {
@@ -344,6 +347,7 @@ struct Farthest<'a, F> {
 impl<F: Real> WithSimd for Farthest<'_, F> {
     type Output = (Eight<F>, Eight<F>);
 
+    /// Finds the squared distance and the instant of the shear farthest from each of eight centres.
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
         let [x, y] = self.centres;

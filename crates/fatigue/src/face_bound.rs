@@ -15,15 +15,15 @@
 use crate::hemisphere::{Face, Triangle};
 use crate::path::{cross, dot};
 
-/// Upper bound of a function on the face. `corners` are at least the values at the corners, `low`
-/// is at most any value on the face, `K` is the bound of the second derivative.
+/// Upper bound of a function on a face of the hemisphere. `corners` are upper bounds of its values at the
+/// corners, `low` is a lower bound on the face, and `K` bounds the second derivative.
 pub(crate) fn max_on_face(face: &Face, corners: [f64; 3], low: f64, K: f64) -> f64 {
     let raised = corners.map(|f| K + (f - low));
     max_inside(&face.corners, raised).unwrap_or_else(|| max_on_edges(&face.corners, raised)) - K
         + low
 }
 
-/// The largest S/|v| of the plane of the corners, if it is in the triangle.
+/// The largest S/|v| in the plane through the corners v with the values s, if it lies inside the triangle.
 fn max_inside([a, b, c]: &Triangle, [s_a, s_b, s_c]: [f64; 3]) -> Option<f64> {
     let (p, q) = (minus(b, a), minus(c, a));
     let normal = cross(p, q);
@@ -42,7 +42,7 @@ fn max_inside([a, b, c]: &Triangle, [s_a, s_b, s_c]: [f64; 3]) -> Option<f64> {
     is_inside.then(|| (at_foot * at_foot / h_squared + dot(g, g)).sqrt())
 }
 
-/// The largest S/|v| of the edges.
+/// The largest S/|v| on the edges of the triangle.
 fn max_on_edges([a, b, c]: &Triangle, [s_a, s_b, s_c]: [f64; 3]) -> f64 {
     let edge = |a: &[f64; 3], b: &[f64; 3], s_a: f64, s_b: f64| {
         let chord = minus(b, a);
@@ -59,6 +59,7 @@ fn max_on_edges([a, b, c]: &Triangle, [s_a, s_b, s_c]: [f64; 3]) -> f64 {
     largest.max(edge(c, a, s_c, s_a)).sqrt()
 }
 
+/// a - b
 fn minus(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }

@@ -6,7 +6,7 @@ use crate::plane_function::{CurvatureBounds, Plane, PlaneFunction};
 use crate::tangent::Tangent;
 
 /// Bounds of the criterion on faces, given the best value so far.
-pub(crate) struct Limit {
+pub(crate) struct FaceBound {
     tangent: Tangent,
     bend: CurvatureBounds,
     /// Bounds on the second derivative and the slope of the tangent's sum.
@@ -15,7 +15,9 @@ pub(crate) struct Limit {
     best: f64,
 }
 
-impl Limit {
+impl FaceBound {
+    /// Prepares bounds on faces of the hemisphere: from bounds on the second derivatives of the two parts, the
+    /// `tangent` of the criterion at the best plane, and the `best` value so far.
     pub(crate) fn new(bend: &CurvatureBounds, tangent: Tangent, best: f64) -> Self {
         Self {
             tangent,
@@ -26,8 +28,7 @@ impl Limit {
         }
     }
 
-    /// Upper bound of the criterion on the face; not the sharpest one if that is below the best
-    /// value anyway.
+    /// Upper bound of the criterion on a face. If it is below the best value, no sharper one is computed.
     pub(crate) fn bound(&self, f: &impl PlaneFunction, face: &Face, planes: &[Plane]) -> f64 {
         let Self { tangent, K, .. } = self;
         let [a, b, c] = face.planes;

@@ -32,6 +32,7 @@ pub(crate) struct Forms {
 }
 
 impl Forms {
+    /// Quadratic forms of the two parts (upper bounds at corners and edges) on a face.
     pub(crate) fn new(corners: [[f64; 2]; 3], edges: [[f64; 2]; 3], face: &Triangle) -> Self {
         Self {
             corners,
@@ -40,7 +41,7 @@ impl Forms {
         }
     }
 
-    /// Upper bound of a part on the triangle.
+    /// Upper bound of the first (0) or second (1) part on the triangle.
     pub(crate) fn max_part(&self, part: usize) -> f64 {
         let corners = self.corners.iter().map(|parts| parts[part]);
         let edges = self.edges.iter().zip(self.cosines);
@@ -48,14 +49,14 @@ impl Forms {
         corners.chain(edges).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Returns the least of the ascending `values` that is proved to be an upper bound of the
-    /// criterion.
+    /// The smallest of the ascending `values` that one of the tangents proves to be an upper bound of the
+    /// criterion; none if no value is.
     pub(crate) fn smallest_proved(&self, values: &[f64; 3], tangents: &[Tangent]) -> Option<f64> {
         let proved = |value: &&f64| tangents.iter().any(|t| self.is_bound(t, **value));
         values.iter().rev().take_while(proved).last().copied()
     }
 
-    /// Checks that this tangent proves `value` to be an upper bound.
+    /// Whether this tangent proves `value` to be an upper bound of the criterion on the triangle.
     fn is_bound(&self, tangent: &Tangent, value: f64) -> bool {
         let level = tangent.sum_at_value(value) - tangent.constant;
         let below = |parts: [f64; 2], cosine: f64| {
@@ -83,7 +84,7 @@ pub(crate) fn gather_corners(faces: &[Face]) -> [[Eight<f64>; 3]; 3] {
     corners
 }
 
-/// Lowers the bounds of at most eight faces.
+/// Lowers the bounds of at most eight faces to `most` of each.
 pub(crate) fn lower_bounds(faces: &mut [Face], most: impl Fn(usize, &Face) -> f64) {
     debug_assert!(faces.len() <= LANES);
     for (l, face) in faces.iter_mut().enumerate() {

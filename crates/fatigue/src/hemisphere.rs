@@ -19,6 +19,7 @@ pub(crate) struct Face {
 }
 
 impl Face {
+    /// A face with these corners, whose planes have the given numbers, and without a bound.
     pub(crate) fn new(corners: Triangle, planes: [usize; 3]) -> Self {
         let sag = sag(&corners);
         Self {
@@ -44,6 +45,8 @@ pub(crate) static COARSE: LazyLock<Hemisphere> = LazyLock::new(|| build_hemisphe
 /// 160 faces.
 pub(crate) static FINE: LazyLock<Hemisphere> = LazyLock::new(|| build_hemisphere(2));
 
+/// Triangles and planes of a hemisphere: half of an icosahedron with each triangle divided into four, `cuts`
+/// times.
 fn build_hemisphere(cuts: usize) -> Hemisphere {
     let mut faces: Vec<Triangle> = half_icosahedron();
     for _ in 0..cuts {
@@ -97,6 +100,7 @@ fn half_icosahedron() -> Vec<Triangle> {
     faces
 }
 
+/// The unit vector through the centroid of a triangle.
 fn centroid_on_sphere([a, b, c]: Triangle) -> [f64; 3] {
     normalize(std::array::from_fn(|d| a[d] + b[d] + c[d]))
 }
@@ -106,6 +110,7 @@ pub(crate) fn arc_midpoint(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     normalize(std::array::from_fn(|d| a[d] + b[d]))
 }
 
+/// Divides a triangle into four at the middles of its arcs.
 fn divide_triangle([a, b, c]: &Triangle) -> [Triangle; 4] {
     let (ab, bc, ca) = (
         arc_midpoint(*a, *b),
@@ -115,7 +120,8 @@ fn divide_triangle([a, b, c]: &Triangle) -> [Triangle; 4] {
     [[*a, ab, ca], [ab, *b, bc], [ca, bc, *c], [ab, bc, ca]]
 }
 
-/// 1/cos r - 1, r being the radius of the circle through the corners.
+/// 1/cos r - 1, with r the angular radius of the circle through the corners: how far a plane through them lies
+/// below the sphere.
 pub(crate) fn sag([a, b, c]: &Triangle) -> f64 {
     let edge = |corner: &[f64; 3]| std::array::from_fn(|d| corner[d] - a[d]);
     let axis = cross(edge(b), edge(c));

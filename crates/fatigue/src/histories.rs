@@ -25,6 +25,7 @@ pub(crate) struct Histories {
 }
 
 impl Histories {
+    /// Buffers without any instant.
     pub(crate) fn new() -> Self {
         Self {
             stress: Path::new(),
@@ -55,7 +56,7 @@ impl Histories {
         self.strained.load(&self.buffer, unit);
     }
 
-    /// S*.
+    /// S*: the stress plus 2 G times the plastic strain.
     pub(crate) fn strained(&self) -> &Path {
         if self.yields {
             &self.strained

@@ -58,10 +58,12 @@ macro_rules! real {
     ($float:ty, $view:ident, $edit:ident, $max:ident, $min:ident, $more:ident, $select:ident, $splat:ident) => {
         impl Real for $float {
             const EPSILON: f64 = <$float>::EPSILON as f64;
+            /// The nearest number of this precision.
             #[inline(always)]
             fn near(value: f64) -> Self {
                 value as Self
             }
+            /// The number in double precision.
             #[inline(always)]
             fn wide(self) -> f64 {
                 f64::from(self)
@@ -70,18 +72,21 @@ macro_rules! real {
             fn mul_add(self, by: Self, add: Self) -> Self {
                 self.mul_add(by, add)
             }
+            /// Replaces each lane by the larger of the two.
             #[inline(always)]
             fn raise<S: Simd>(simd: S, most: &mut Eight<Self>, by: &Eight<Self>) {
                 for (most, by) in S::$edit(most).0.iter_mut().zip(S::$view(by).0) {
                     *most = simd.$max(*most, *by);
                 }
             }
+            /// Replaces each lane by the smaller of the two.
             #[inline(always)]
             fn lower<S: Simd>(simd: S, least: &mut Eight<Self>, by: &Eight<Self>) {
                 for (least, by) in S::$edit(least).0.iter_mut().zip(S::$view(by).0) {
                     *least = simd.$min(*least, *by);
                 }
             }
+            /// Replaces each lane by the larger of the two; lanes that change get the `mark`.
             #[inline(always)]
             fn raise_marked<S: Simd>(
                 simd: S,
@@ -99,6 +104,7 @@ macro_rules! real {
                     *most = simd.$max(*most, *by);
                 }
             }
+            /// Replaces each lane by the smaller of the two; lanes that change get the `mark`.
             #[inline(always)]
             fn lower_marked<S: Simd>(
                 simd: S,

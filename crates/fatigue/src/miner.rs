@@ -122,7 +122,7 @@ impl DamageCurve {
         self.damage_by(value, |v| 1.0 / self.assessment.life(v))
     }
 
-    /// Reads [`Self::damage`] from the table of a curve, to 1e-5.
+    /// Interpolates [`Self::damage`] in the table of a curve, to a relative error of 1e-5.
     fn quick_damage(&self, value: f64) -> f64 {
         self.damage_by(value, |v| {
             let x = v.ln();
@@ -135,7 +135,7 @@ impl DamageCurve {
         })
     }
 
-    /// Damage of a loop; `above` is the damage by the strain-life curve.
+    /// Damage of a loop by the rule for values below the knee; `above` computes it from the strain-life curve.
     fn damage_by(&self, value: f64, above: impl Fn(f64) -> f64) -> f64 {
         if !(value > 0.0) {
             return 0.0;
@@ -177,8 +177,9 @@ pub struct PointDamage {
     pub values: Vec<f64>,
 }
 
-/// Sums the damage of loops at points, in parallel. `stress` has the shape (loops, instants, points, 6)
-/// \[Pa\]. `bounded`: with [`PointDamage::missed`].
+/// Sums the damage of loops at points by Miner's rule, in parallel. `stress` has the shape (loops, instants,
+/// points, 6) \[Pa\]. If `bounded`, an upper bound on other planes is computed as well
+/// ([`PointDamage::missed`]).
 pub fn sum_damage(
     curve: &DamageCurve,
     stress: &ArrayView4<'_, f64>,
@@ -238,7 +239,7 @@ pub fn sum_damage(
         .collect()
 }
 
-/// Sums the damage at one point.
+/// Sums the damage at one point on the plane where the sum is largest.
 fn point_damage(
     curve: &DamageCurve,
     histories: &[Histories],
@@ -346,7 +347,7 @@ fn point_damage(
     damage
 }
 
-/// Turns a plane towards larger sums.
+/// Turns a plane with its sum towards larger sums, until they no longer grow.
 fn refine(start: ([f64; 3], f64), sum: &mut impl FnMut([f64; 3]) -> f64) -> ([f64; 3], f64) {
     let (mut n, mut most) = start;
     let mut turn = FIRST_TURN;

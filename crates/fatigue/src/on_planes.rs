@@ -43,6 +43,7 @@ pub(crate) struct ShearBuffers {
 }
 
 impl Default for ShearBuffers {
+    /// Empty buffers.
     fn default() -> Self {
         Self {
             shear: Vec::new(),
@@ -73,6 +74,7 @@ pub(crate) struct OnPlanes<'a> {
 }
 
 impl<'a> OnPlanes<'a> {
+    /// Prepares the criterion for the histories of one point: bounds and the form of the combination.
     pub(crate) fn new(
         law: PlaneLaw,
         histories: &'a Histories,
@@ -154,6 +156,7 @@ impl<'a> OnPlanes<'a> {
 }
 
 impl PlaneFunction for OnPlanes<'_> {
+    /// The two parts on the plane of a unit normal.
     fn parts(&mut self, n: [f64; 3]) -> [f64; 2] {
         match (self.has_shear, self.strain) {
             (false, Some(strain)) => {
@@ -174,6 +177,7 @@ impl PlaneFunction for OnPlanes<'_> {
         }
     }
 
+    /// Evaluates planes eight at a time, in the present precision.
     fn measure(&mut self, planes: &mut [Plane], enough: Threshold) {
         // Moved out of `self`, which the evaluation borrows.
         if self.in_double {
@@ -191,6 +195,7 @@ impl PlaneFunction for OnPlanes<'_> {
         }
     }
 
+    /// A coarse triangulation for products, a fine one for all others.
     fn first_faces(&self) -> &'static Hemisphere {
         match self.combination {
             Combination::Product => &COARSE,
@@ -198,20 +203,24 @@ impl PlaneFunction for OnPlanes<'_> {
         }
     }
 
+    /// The change of the value by the rounding of its parts.
     fn rounding(&mut self, n: [f64; 3]) -> f64 {
         let ([a, b], slack) = (self.parts(n), self.slack());
         self.value([a + slack[0], b + slack[1]]) - self.value([a, b])
     }
 
+    /// Loads the histories in double precision.
     fn to_double(&mut self) {
         self.in_double = true;
         self.buffers.double.load(self.histories);
     }
 
+    /// The criterion by its two parts.
     fn value(&self, parts: [f64; 2]) -> f64 {
         self.combination.value(parts)
     }
 
+    /// Lowers the bounds of faces, by shear or by products as the criterion needs.
     fn bounds(&mut self, faces: &mut [Face], planes: &[Plane], known: &BestPlane) {
         if self.has_shear {
             self.shear_bounds(faces, planes, known);
@@ -226,6 +235,7 @@ impl PlaneFunction for OnPlanes<'_> {
         }
     }
 
+    /// Relative lead of a value below which pieces are refined.
     fn lead(&self) -> f64 {
         if self.has_shear {
             self.combination.tie()
@@ -234,10 +244,13 @@ impl PlaneFunction for OnPlanes<'_> {
         }
     }
 
+    /// Relative difference below which planes tie.
     fn tie(&self) -> f64 {
         self.combination.tie()
     }
 
+    /// The smooth function of the plane that the given instants define: three of the circle, two of the strain,
+    /// one of the normal stress.
     fn piece(&self, instants: [usize; 6]) -> Piece {
         let [a, b, c, max_at, min_at, second_at] = instants;
         let change = self.strain.map(|strain| {
@@ -260,6 +273,7 @@ impl PlaneFunction for OnPlanes<'_> {
         }
     }
 
+    /// The piece of the instants that decide on a plane.
     fn deciding_piece(&mut self, n: [f64; 3]) -> Piece {
         let [second_at, _] = self.histories.stress.extreme_instants(&normal_weights(n));
         let weights = self.strain.map(|strain| strain_weights(n, strain));
@@ -280,10 +294,13 @@ impl PlaneFunction for OnPlanes<'_> {
         self.piece([on[0], on[1], on[2], max_at, min_at, second_at])
     }
 
+    /// A linear bound that is exact at these parts.
     fn tangent(&self, parts: [f64; 2]) -> Tangent {
         self.combination.tangent(parts)
     }
 
+    /// Bounds on the second derivatives of both parts, from the largest first part and the sag of the
+    /// triangles.
     fn curvature_bounds(&self, largest: f64, sag: f64) -> CurvatureBounds {
         let (whole, deviation) = self.tresca;
         let strain_bound = self
@@ -307,10 +324,12 @@ impl PlaneFunction for OnPlanes<'_> {
         }
     }
 
+    /// A value that is not small.
     fn yardstick(&self, bend: &CurvatureBounds) -> f64 {
         self.combination.yardstick(bend.first)
     }
 
+    /// Upper bound of the criterion on all planes.
     fn ceiling(&self, bend: &CurvatureBounds) -> f64 {
         let second = match self.strain {
             Some(_) if self.has_shear => self.max_second_part(),
@@ -320,6 +339,7 @@ impl PlaneFunction for OnPlanes<'_> {
     }
 }
 
+/// The instants that define the circle.
 fn first_three([a, b, c, ..]: [usize; 6]) -> [usize; 3] {
     [a, b, c]
 }

@@ -73,6 +73,7 @@ impl Frame {
 }
 
 impl Path {
+    /// A path without any instant.
     pub(crate) fn new() -> Self {
         Self {
             blocks: Vec::new(),
@@ -237,6 +238,7 @@ struct RangeSweep<'a> {
 impl WithSimd for RangeSweep<'_> {
     type Output = Range;
 
+    /// Finds the extremes of a weighted sum, with vectors of the processor.
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Range {
         let (mut largest, mut smallest) = ([f64::NEG_INFINITY; LANES], [f64::INFINITY; LANES]);
@@ -259,6 +261,7 @@ struct ExtremesSweep<'a> {
 impl WithSimd for ExtremesSweep<'_> {
     type Output = [usize; 2];
 
+    /// Finds the instants of the extremes of a weighted sum.
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> [usize; 2] {
         let (mut largest, mut smallest) = ([f64::NEG_INFINITY; LANES], [f64::INFINITY; LANES]);
@@ -289,6 +292,7 @@ struct NormalAndStrain<'a> {
 impl WithSimd for NormalAndStrain<'_> {
     type Output = (f64, Range);
 
+    /// Finds the largest normal stress and the range of the strain.
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> (f64, Range) {
         let [along, across] = self.strain;
@@ -320,6 +324,7 @@ struct Resolved<'a> {
 impl WithSimd for Resolved<'_> {
     type Output = f64;
 
+    /// Finds the largest normal stress and writes the shear of every instant.
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> f64 {
         let [normal, u, v] = &self.weights;
@@ -363,6 +368,7 @@ pub(crate) fn shear_weights(n: [f64; 3], u: [f64; 3]) -> [f64; 6] {
     ]
 }
 
+/// Cross product.
 pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [
         a[1] * b[2] - a[2] * b[1],
@@ -371,10 +377,12 @@ pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     ]
 }
 
+/// Dot product.
 pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+/// The unit vector.
 pub(crate) fn normalize(a: [f64; 3]) -> [f64; 3] {
     let inverse_length = 1.0 / dot(a, a).sqrt();
     [

@@ -14,6 +14,8 @@ pub(crate) struct PlaneStresses {
 }
 
 impl PlaneStresses {
+    /// Amplitude and chord of the shear, and extremes of the normal stress, on the plane of a unit normal
+    /// \[Pa\].
     pub(crate) fn new(path: &Path, n: [f64; 3], buffers: &mut ShearBuffers) -> Self {
         path.resolve_on_plane(path, &Frame::from_normal(n), &mut buffers.shear);
         let (normal, unit) = (path.normal(n), path.unit());

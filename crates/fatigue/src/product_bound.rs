@@ -8,9 +8,9 @@ use crate::lanes::{LANES, Real};
 use crate::plane_function::{BestPlane, Plane};
 use crate::tangent::Tangent;
 
-/// Lowers the bounds of faces. The strain is the first number times the normal stress less the
-/// second times the sum of all three. `slack` bounds the rounding errors of the strain amplitude
-/// and of the normal stress.
+/// Lowers the bounds of faces for criteria that multiply a strain amplitude by a normal stress. With `strain` =
+/// (a, b) the strain is a times the normal stress less b times the trace. `slack` bounds the rounding errors of
+/// the two parts.
 pub(crate) fn product_bounds<F: Real>(
     instants: &Instants<F>,
     strain: [f64; 2],

@@ -43,8 +43,8 @@ pub struct LifeRange {
 }
 
 impl LifeRange {
-    /// Combines the parts. `material` is the highest margin over the lowest by the scatter of the
-    /// material.
+    /// Combines three causes of scatter: the error of the `stress`, the ratio `material` of the highest to the
+    /// lowest margin by the material, and the critical `distance`.
     pub fn combine(stress: Range, material: f64, distance: Option<Range>) -> Self {
         let (best, half) = (stress.best, 0.5 * material.ln());
         let parts = || std::iter::once(stress).chain(distance);
@@ -87,7 +87,7 @@ impl Range {
     }
 }
 
-/// Logarithm of a ratio, 0 or more; infinite where the larger number is.
+/// Logarithm of a ratio, at least 0; infinite if `larger` is infinite.
 fn log_ratio(larger: f64, smaller: f64) -> f64 {
     if larger <= smaller {
         0.0
@@ -98,8 +98,8 @@ fn log_ratio(larger: f64, smaller: f64) -> f64 {
     }
 }
 
-/// Ratio of the 90th to the 10th percentile of life or strength: the defaults without a measured
-/// scatter.
+/// Default ratio of the 90th to the 10th percentile, of life if `lives`, else of strength, by how the numbers
+/// are known.
 fn default_scatter(lives: bool, kind: Known) -> f64 {
     match (lives, kind) {
         (true, Known::Known) => 3.0,
@@ -186,8 +186,8 @@ impl Assessment {
         ))
     }
 
-    /// Highest over lowest margin by the scatter of a material, and a note if some of its numbers
-    /// are estimates. `given` replaces the default.
+    /// Ratio of the 90th to the 10th percentile of the margin by the scatter of a material, `measured` or by
+    /// default. Also returns a note if some of its numbers are estimates.
     pub fn scatter(
         &self,
         material: Option<&Material>,

@@ -51,8 +51,8 @@ impl Piece {
         self.parts_with_circle(n, radius_through)
     }
 
-    /// The two parts on the plane of a unit normal, without a frame: the circle is known to half of
-    /// the digits where the shear is small against the normal stress.
+    /// The two parts on the plane of a unit normal by a formula without a frame. It keeps half of the digits
+    /// where the shear is small against the normal stress.
     pub(crate) fn quick_parts(&self, n: [f64; 3]) -> [f64; 2] {
         let normal = |s: &StressTensor| dot(traction(s, n), n);
         let first = match &self.first {
@@ -88,6 +88,8 @@ impl Piece {
         (dot(largest, largest) > 0.0).then(|| normalize(largest))
     }
 
+    /// The two parts on the plane of a unit normal; `radius` computes the radius of the circle from its three
+    /// points.
     fn parts_with_circle(&self, n: [f64; 3], radius: impl Fn([[f64; 2]; 3]) -> f64) -> [f64; 2] {
         let normal = normal_weights(n);
         let component = |weights: &[f64; 6], s: &StressTensor| -> f64 {
@@ -128,6 +130,7 @@ fn traction(s: &StressTensor, n: [f64; 3]) -> [f64; 3] {
     ]
 }
 
+/// s - reference.
 fn difference(s: &StressTensor, reference: &StressTensor) -> StressTensor {
     let mut change = *s;
     for c in 0..6 {
@@ -136,7 +139,7 @@ fn difference(s: &StressTensor, reference: &StressTensor) -> StressTensor {
     change
 }
 
-/// Finds the maximum from the plane n, and the value there, to rounding.
+/// Finds the maximum of `f` near the plane n, by Newton steps to rounding; returns its normal and value.
 pub(crate) fn refine(f: &impl Fn([f64; 3]) -> f64, n: [f64; 3]) -> ([f64; 3], f64) {
     let mut best = refine_roughly(f, n, f64::NEG_INFINITY);
     for _ in 0..8 {
@@ -155,8 +158,8 @@ pub(crate) fn refine(f: &impl Fn([f64; 3]) -> f64, n: [f64; 3]) -> ([f64; 3], f6
     best
 }
 
-/// Finds the maximum from the plane n, and the value there, to `NEARLY`^2. Stops early if the
-/// gains, which decrease from step to step, cannot lead above `least`.
+/// Finds the maximum of `f` near the plane n as [`refine`], to `NEARLY`^2. Stops early if the gains, which
+/// decrease from step to step, cannot lead above `least`.
 pub(crate) fn refine_roughly(
     f: &impl Fn([f64; 3]) -> f64,
     n: [f64; 3],
@@ -220,8 +223,8 @@ fn newton_step<const SHARP: bool>(
     None
 }
 
-/// Finds the top of a quadratic: slope + bend x = 0 along the directions that bend down by more
-/// than `flat`. Along others it takes the longest step uphill.
+/// The step to the top of a quadratic with this slope and second derivatives. It uses directions that bend down
+/// by more than `flat`; along others it takes the longest step uphill. None without an upward step.
 fn top_of_quadratic(slope: [f64; 2], [uu, vv, uv]: [f64; 3], flat: f64) -> Option<[f64; 2]> {
     let angle = 0.5 * (2.0 * uv).atan2(uu - vv);
     let (sin, cos) = angle.sin_cos();

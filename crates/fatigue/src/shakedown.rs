@@ -87,8 +87,8 @@ pub fn yielding(
     Ok(points.into_iter().map(|p| p.unwrap_or(no_yield)).collect())
 }
 
-/// The smallest positive f for which the equivalent stress of constant + f s is s_y. Equivalent
-/// stresses are convex along f and at most s_y at f = 0.
+/// The smallest f > 0 for which the equivalent stress of constant + f s reaches s_y; infinite if none does.
+/// Equivalent stresses are convex along f and at most s_y at f = 0.
 fn yield_factor(
     s: &StressTensor,
     constant: &StressTensor,

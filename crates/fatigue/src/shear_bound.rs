@@ -54,9 +54,9 @@ impl BestPlaneBound {
         Self { slack }
     }
 
-    /// Lowers the bounds of the faces. `s` is the amplitude on the best plane; `second` bounds the
-    /// second part on the edges of eight faces. Stops and returns false once fewer than one face in
-    /// four is excluded.
+    /// Lowers the bounds of faces by the diameter of the circle on the best plane. `s` is the amplitude there;
+    /// `second` bounds the second part on the edges of eight faces. Stops and returns false once fewer than one
+    /// face in four is excluded.
     pub(crate) fn bounds(
         &self,
         squares: &Instants<f32>,

@@ -146,7 +146,7 @@ impl SpectralMoments {
         sum * self.m[0].powf(0.5 * k)
     }
 
-    /// The exponentials of a distribution in Z.
+    /// The probability density of amplitudes as a sum of exponentials in Z, the amplitude over its scale.
     fn terms(&self, distribution: CycleDistribution) -> Vec<Term> {
         let rayleigh = |weight| Term {
             weight,
@@ -192,6 +192,7 @@ struct Term {
 }
 
 impl Term {
+    /// The argument of the exponential at z.
     fn argument(&self, z: f64) -> f64 {
         let ratio = z / self.scale;
         if self.squared {

@@ -23,7 +23,7 @@ impl Tangent {
         is_product: false,
     };
 
-    /// The form a + w b itself.
+    /// The tangent of a + w b, which is this form itself.
     pub(crate) fn sum(weight: f64) -> Self {
         Self {
             first: 1.0,

@@ -77,7 +77,7 @@ impl Curve {
         })
     }
 
-    /// Lengths at which the curve is evaluated, `from` among them.
+    /// The lengths at which the curve is evaluated, from the length `from` on \[m\].
     fn places(&self, from: f64) -> Vec<f64> {
         let (before, after): (Vec<f64>, Vec<f64>) = self.lengths().iter().partition(|l| **l < from);
         let after = after.into_iter().filter(|l| *l > from);
@@ -92,6 +92,7 @@ impl Curve {
     }
 }
 
+/// The place between `low` and `high` at which f changes its sign, by bisection.
 fn crossing(f: &impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     let begins = f(low) > 0.0;
     for _ in 0..HALVINGS {

@@ -126,7 +126,7 @@ enum Factors {
 }
 
 impl Factors {
-    /// `None` for a singular matrix.
+    /// Factorises the matrix; `None` for a singular one.
     fn new(matrix: &Array2<f64>) -> Option<Self> {
         let n = matrix.nrows() / 2;
         let coupled = matrix.indexed_iter().any(|((row, column), t)| {
@@ -153,6 +153,7 @@ impl Factors {
 }
 
 impl Contact {
+    /// Computes the matrices between jumps and tractions of the faces of a crack.
     pub(crate) fn new(rule: &Rule, length: f64) -> Result<Self, Error> {
         let n = rule.points.len();
         let mut matrix = influence(rule);
@@ -243,7 +244,7 @@ impl Contact {
         Err(Unsettled { passes, at_fault })
     }
 
-    /// The jumps of faces that are open all along, with these openings.
+    /// The jumps of faces that are open all along, from these openings `gaps`.
     fn apart(&self, instant: &Instant<'_>, gaps: &Array1<f64>) -> Array1<f64> {
         match &self.all_open {
             Factors::Coupled(whole) => whole.solve(&-instant.load),
@@ -320,7 +321,7 @@ impl Contact {
         Some(jumps)
     }
 
-    /// Tractions of the faces and the rounding that is in them.
+    /// Tractions of the faces under these jumps, and the rounding errors in them.
     fn tractions(&self, instant: &Instant<'_>, jumps: &Array1<f64>) -> (Array1<f64>, Array1<f64>) {
         let n = jumps.len() / 2;
         let halves = matches!(self.all_open, Factors::Halves { .. });
@@ -343,7 +344,7 @@ impl Contact {
 }
 
 impl Instant<'_> {
-    /// Tractions that keep the equations of the states without rounding.
+    /// Sets tractions that the states prescribe (zero when open, friction when sliding) without rounding.
     fn lawful(&self, mut tractions: Array1<f64>, states: &[Signed]) -> Array1<f64> {
         let n = states.len();
         for (k, (state, sign)) in states.iter().enumerate() {

@@ -56,7 +56,7 @@ pub struct Crack {
 /// Tractions of the body without the crack for the rule, and for the rule of three times its step.
 pub(crate) type Loads = [Vec<Traction>; 2];
 
-/// K per traction: -K(f) A^-1, by the transposed system.
+/// Weights of the tractions in K_I and K_II, from the transposed system.
 fn weights(rule: &Rule, length: f64) -> Result<[Array1<f64>; 2], Error> {
     let n = rule.points.len();
     let transposed = influence(rule).t().as_standard_layout().into_owned();
@@ -174,7 +174,7 @@ impl Crack {
         Ok(self.linear(&self.loads(stress)?))
     }
 
-    /// K under tractions at the points.
+    /// K_I and K_II under tractions at the points, with faces that may pass through each other.
     pub(crate) fn linear(&self, loads: &Loads) -> Intensity {
         let root = self.length.sqrt();
         let sum = |w: &Array1<f64>, load: &[Traction]| -> f64 {

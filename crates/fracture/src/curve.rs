@@ -39,7 +39,7 @@ pub struct Curve {
 const FEWEST_LENGTHS: usize = 4;
 
 impl Curve {
-    /// Curve through lengths \[m\], ascending, and the extremes of K at them.
+    /// A curve through the extremes of K at these lengths \[m\], ascending.
     pub fn new(lengths: Vec<f64>, extremes: Vec<Extremes>) -> Result<Self, Error> {
         let count = lengths.len();
         if count != extremes.len() {
@@ -89,7 +89,7 @@ impl Curve {
         &self.extremes
     }
 
-    /// K at a length \[m\] within the curve's.
+    /// The extremes of K at a length \[m\] within the lengths of the curve.
     pub fn at(&self, l: f64) -> Extremes {
         let n = self.lengths.len();
         let after = self.lengths.partition_point(|at| *at < l);
@@ -106,7 +106,7 @@ impl Curve {
         sum
     }
 
-    /// Fails at a length outside the curve.
+    /// Fails at a length beyond the curve; `key` names it.
     pub(crate) fn check(&self, key: &str, l: f64) -> Result<(), Error> {
         let (first, last) = (self.lengths[0], self.lengths[self.lengths.len() - 1]);
         if (first..=last).contains(&l) {

@@ -83,7 +83,8 @@ pub fn kinked(turn: f64) -> [[f64; 2]; 2] {
 }
 
 impl Direction {
-    /// The opening stress or intensity of a small kink of the angle `turn` \[rad\].
+    /// The quantity that the direction maximises: the tangential stress ahead of the tip, or K_I of a small kink, at the
+    /// angle `turn` \[rad\].
     fn opening(self, k: &Intensity, turn: f64) -> f64 {
         match self {
             Self::TangentialStress => {

@@ -138,7 +138,7 @@ impl Film {
         Ok(k_of_density() * density[0] / std::f64::consts::PI.sqrt())
     }
 
-    /// The density under unit tension.
+    /// The density of dislocations of a crack under unit tension.
     fn solve(&self, from: &[Place], to: &[Place]) -> Result<Array1<f64>, Error> {
         let (m, n) = (self.m, self.n);
         let mut matrix = self.echoes(from, to);
@@ -164,7 +164,7 @@ impl Film {
         Ok(factors.solve(&unit))
     }
 
-    /// All echoes after the first ones of the surface and of the interface.
+    /// The stress between places by all reflections at surface and interface after the first ones.
     fn echoes(&self, from: &[Place], to: &[Place]) -> Array2<f64> {
         let down = |x: f64, [Q, p]: [f64; 2]| {
             let e = (-x).exp();
@@ -215,7 +215,7 @@ impl Film {
     }
 }
 
-/// Nodes and weights over k in 0..60/h, panels that double from 1e-3.
+/// Nodes and weights of the integral over the wave number k from 0 to 60/h, on panels that double from 1e-3/h.
 fn wave_numbers() -> Vec<(f64, f64)> {
     const RULE: [(f64, f64); 5] = [
         (0.148_874_338_981_631_2, 0.295_524_224_714_752_9),

@@ -38,7 +38,7 @@ pub struct Faces {
 }
 
 impl Faces {
-    /// Faces without load, with the coefficient of friction `friction` >= 0 between them.
+    /// A crack without load, with this coefficient of friction between its faces.
     pub fn new(crack: &Crack, friction: f64) -> Result<Self, Error> {
         if !(0.0..=2.0).contains(&friction) {
             return Err(Error::invalid(
@@ -97,7 +97,7 @@ impl Faces {
         Ok(next)
     }
 
-    /// Takes the faces to a load, at once or in halves.
+    /// Takes the faces to a load; in halves, `halvings` times at most, if their states do not settle.
     fn go_to(&mut self, load: Array1<f64>, halvings: usize) -> Result<(), Error> {
         let n = self.slip.len();
         let contact = self.crack.contact()?;
@@ -166,7 +166,8 @@ impl Faces {
         Ok(open.fold(0.0, |sum, (_, begin, end)| sum + end - begin))
     }
 
-    /// The border between the points k and k + 1 (nearer to the mouth).
+    /// The place of the border between open and closed faces, between the points k and `next` (nearer to the
+    /// mouth).
     fn border(&self, s: &[f64], k: usize, next: usize) -> f64 {
         let (rank, other) = (self.rank(k), self.rank(next));
         // From the side that moves: open against closed, slipping against stuck.
@@ -198,6 +199,7 @@ impl Faces {
         }
     }
 
+    /// How firmly the faces are held at point k: 0 open, 1 slip, 2 stick.
     fn rank(&self, k: usize) -> u8 {
         match self.states[k].0 {
             State::Open => 0,

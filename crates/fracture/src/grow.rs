@@ -36,6 +36,7 @@ pub struct Growing {
 }
 
 impl Default for Growing {
+    /// The default direction, without friction, to a tolerance of 1 %; the length to grow to is 0.
     fn default() -> Self {
         Self {
             direction: Direction::default(),
@@ -164,6 +165,7 @@ pub fn grow<E: From<Error>>(
     }
 }
 
+/// Grows a crack in so many pieces; `at_tip` returns K and direction at a tip.
 fn in_pieces<E: From<Error>>(
     start: &Path,
     growing: &Growing,
@@ -219,7 +221,8 @@ fn in_pieces<E: From<Error>>(
     Ok(grown)
 }
 
-/// The path with one more piece, in a new leg after a kink.
+/// The path with one more curved piece (length, curvature), in a new leg if `kink`. The piece `begins` at this
+/// length from the mouth.
 fn with_piece(path: &Path, kink: bool, piece: (f64, f64), begins: f64) -> Path {
     let mut path = path.clone();
     if kink {

@@ -42,7 +42,7 @@ pub(crate) struct Jumps {
 }
 
 impl Jumps {
-    /// The points beside the jumps of a path at the lengths `at` from the mouth \[m\].
+    /// The points on both sides of the jumps of the stress at the lengths `at` from the mouth \[m\].
     pub(crate) fn new(rule: &Rule, path: &Path, at: &[f64]) -> Self {
         let mut jumps = Self::default();
         let length = path.length();
@@ -54,7 +54,7 @@ impl Jumps {
         jumps
     }
 
-    /// Adds the points beside the jumps at t = `splits` of one leg.
+    /// Adds the points on both sides of the jumps that lie in one leg, at the parameters t = `splits`.
     fn add_stretch(
         &mut self,
         (stretch, h): (&Stretch, f64),

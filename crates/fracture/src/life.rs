@@ -44,6 +44,7 @@ pub struct Life {
 }
 
 impl Rate {
+    /// Fails at constants of Paris' law without meaning.
     fn check(&self) -> Result<(), Error> {
         for (key, value) in [("C", self.C), ("m", self.m)] {
             if !(value > 0.0 && value.is_finite()) {
@@ -53,7 +54,7 @@ impl Rate {
         Ok(())
     }
 
-    /// dl/dN \[m/cycle\] at the equivalent range dK and the threshold, both \[Pa m^0.5\].
+    /// Growth dl/dN \[m/cycle\] at the equivalent range `dK` over the threshold `dK_th` \[Pa m^0.5\].
     pub fn growth_rate(&self, dK: f64, dK_th: f64) -> f64 {
         if dK <= dK_th {
             return 0.0;

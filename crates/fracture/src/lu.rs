@@ -16,7 +16,7 @@ pub(crate) struct Lu {
 }
 
 impl Lu {
-    /// Nothing for a singular matrix.
+    /// Factorises a matrix in place, with pivots; `None` for a singular one.
     pub(crate) fn new(mut factors: Array2<f64>) -> Option<Self> {
         let n = factors.nrows();
         let mut rows: Vec<usize> = (0..n).collect();
@@ -45,7 +45,7 @@ impl Lu {
         Some(Self { factors, rows })
     }
 
-    /// The x of matrix x = right.
+    /// Solves matrix x = right.
     pub(crate) fn solve(&self, right: &Array1<f64>) -> Array1<f64> {
         let n = self.rows.len();
         let mut x: Array1<f64> = self.rows.iter().map(|row| right[*row]).collect();

@@ -16,7 +16,7 @@ const MOST_LEGS: usize = 40;
 /// Parts of a piece, at whose ends a depth is compared to find the crossings of the piece.
 const SUBDIVISIONS: u32 = 16;
 
-/// Returns the place at which a condition that holds at `low` ceases to hold, to rounding.
+/// The place at which a condition that holds at `low` ceases to hold, to rounding.
 fn bisect(holds: impl Fn(f64) -> bool, (mut low, mut high): (f64, f64)) -> f64 {
     while high - low > 1e-14 * high {
         let middle = f64::midpoint(low, high);
@@ -57,7 +57,7 @@ impl Leg {
         self.pieces.last().map_or(self.start, |p| p.1)
     }
 
-    /// Offset from its begin \[m\] (x + i z) and angle \[rad\] after the length `s` \[m\].
+    /// Offset x + i z \[m\] from its begin and angle \[rad\] after the length `s` \[m\] of the piece.
     pub(crate) fn at(&self, s: f64) -> (Complex64, f64) {
         let (mut from, mut angle, mut offset) = (0.0, self.start, Complex64::default());
         let last = self.pieces.len().saturating_sub(1);
@@ -137,7 +137,7 @@ impl Path {
             .fold(0.0, f64::max)
     }
 
-    /// The part from the mouth to the length `s` \[m\] of the path.
+    /// The path from the mouth to the length `s` \[m\].
     #[must_use]
     pub fn up_to(&self, s: f64) -> Self {
         // What rounding leaves of a length is no piece.
@@ -205,7 +205,7 @@ impl Path {
         self.at(self.length())
     }
 
-    /// The point after the length `s` \[m\] from the mouth.
+    /// The point at the length `s` \[m\] from the mouth.
     pub fn at(&self, s: f64) -> Point {
         let (mut from, mut at) = (0.0, Complex64::new(self.mouth, 0.0));
         let last = self.legs.len().saturating_sub(1);

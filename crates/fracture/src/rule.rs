@@ -76,6 +76,7 @@ pub(crate) fn step(path: &Path) -> f64 {
 }
 
 impl Rule {
+    /// Places dislocations and points along a path, with `step` as the distance of their parameter.
     pub(crate) fn new(path: &Path, step: f64) -> Self {
         let length = path.length();
         let (mut dislocations, mut points) = (Vec::new(), Vec::new());
@@ -128,7 +129,8 @@ impl Rule {
         }
     }
 
-    /// Every third dislocation and point.
+    /// This rule with steps three times as long (every third dislocation and point), for the error of the
+    /// quadrature.
     pub(crate) fn coarse(&self) -> Self {
         let tripled = |knot: &Knot| Knot {
             weight: 3.0 * knot.weight,
@@ -144,7 +146,8 @@ impl Rule {
     }
 }
 
-/// Distance from the leg's start and its derivative by t; at the tip times 1/w.
+/// Distance from the start of the leg, and its derivative by t, at the parameter t; at a `tip` with the
+/// singularity of the density taken out.
 fn place(length: f64, t: f64, tip: bool) -> (f64, f64) {
     if tip {
         let s = length / (0.5 * t).cosh().powi(2);

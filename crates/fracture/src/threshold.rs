@@ -81,7 +81,7 @@ impl Threshold {
         self.dK_th * (l / (l + self.a_0())).sqrt()
     }
 
-    /// The range of K that acts alike at R = 0 \[Pa m^0.5\].
+    /// The range of K \[Pa m^0.5\] that acts alike at the load ratio R = 0.
     pub fn equivalent(&self, k: Extremes) -> f64 {
         let (range, R) = (k.range(), k.ratio());
         match &self.ratio {
@@ -92,6 +92,7 @@ impl Threshold {
     }
 }
 
+/// The threshold at the load ratio R, linear between the rows of a table.
 fn interpolated(rows: &[(f64, f64)], R: f64) -> f64 {
     let after = rows.partition_point(|row| row.0 < R);
     match (after.checked_sub(1).map(|n| rows[n]), rows.get(after)) {

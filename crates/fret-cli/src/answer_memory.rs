@@ -33,7 +33,8 @@ pub(crate) struct AnswerMemory {
 }
 
 impl AnswerMemory {
-    /// Estimates the memory for a number of increments; `None` without a length of the contact.
+    /// Estimates the memory of a stress computation below a result of so many increments; `None` if the size of
+    /// the contact is not known before.
     pub(crate) fn estimate(scene: &Scene, increments: usize) -> Option<Self> {
         let a = scene.hertz()?.a;
         let depths = |body: &Body| {
@@ -65,7 +66,7 @@ impl AnswerMemory {
         })
     }
 
-    /// Lines of text.
+    /// Lines of text on the memory that is kept for answers of each kind.
     pub(crate) fn describe(&self) -> Vec<String> {
         let megabytes = |bytes: f64| format!("about {:.0} MB", bytes / 1e6);
         let mut lines = vec![

@@ -33,7 +33,7 @@ pub(crate) struct Options {
     strict: bool,
 }
 
-/// Prints the interpretation of the scene and the needs of its solution.
+/// Prints how the scene is understood and what its solution needs: the command `fret check`.
 pub(crate) fn check(options: &Options) -> Result<(), Failure> {
     let read = options.scene.read_whole();
     let read = read.and_then(|(scene, wear)| scene.check_fit().map(|()| (scene, wear)));
@@ -70,7 +70,7 @@ pub(crate) fn check(options: &Options) -> Result<(), Failure> {
     }
 }
 
-/// The errors of an invalid scene, and its doubts.
+/// The errors of an invalid scene and its doubts, as JSON.
 fn errors_to_json(error: &Error) -> Value {
     let (errors, doubts) = match error {
         Error::SceneFaults { errors, doubts } => (&errors[..], &doubts[..]),
@@ -88,7 +88,7 @@ fn errors_to_json(error: &Error) -> Value {
     json!({ "errors": objects.collect::<Vec<_>>(), "doubts": doubts })
 }
 
-/// The numbers of a scene in SI units, with the printed lines.
+/// The numbers of a scene in SI units as JSON, with the printed `lines`.
 fn numbers(
     scene: &Scene,
     plan: &Plan,
@@ -153,7 +153,7 @@ fn numbers(
     })
 }
 
-/// Pairs of a subject and its text.
+/// The printed text: pairs of a subject and a text on it.
 fn description(scene: &Scene, plan: &Plan, work: &Work) -> Vec<(&'static str, String)> {
     let grid = &scene.grid;
     let (length_x, length_y) = grid.extent();
@@ -336,8 +336,7 @@ struct Work {
 }
 
 impl Work {
-    /// Estimates the work. `coupling`: pressure and shear are both solved, and depend on each
-    /// other.
+    /// Estimates the work of a run. With `coupling`, pressure and shear are solved in turn.
     fn estimate(scene: &Scene, coupling: bool) -> Self {
         let branches = &scene.path.branches;
         let increments = CHOSEN_INCREMENTS.map(|chosen| {
@@ -352,7 +351,7 @@ impl Work {
         }
     }
 
-    /// The work in words.
+    /// The estimated work as a sentence.
     fn describe(&self, scene: &Scene) -> String {
         let ([least_increments, most_increments], [few, many]) =
             (self.increments, self.per_increment);

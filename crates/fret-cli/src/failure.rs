@@ -19,6 +19,7 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
+    /// Prints the error and returns the exit code.
     pub(crate) fn report(&self) -> u8 {
         let (error, code) = match self {
             Self::EndedEarly(error) => (error.to_string(), 1),

@@ -13,7 +13,7 @@ const MARK: char = '\u{0}';
 /// Reason for a missing number without a stated reason: a result that is not finite.
 const UNKNOWN: &str = "not known";
 
-/// A number for [`pretty`] and [`line`]; one that is not finite keeps its reason.
+/// A number for [`pretty`] and [`line`]; for inf and NaN the reason is kept, which they print beside null.
 pub(crate) fn number(x: f64) -> Value {
     match x {
         x if x.is_finite() => json!(x),
@@ -138,6 +138,7 @@ fn size_variable(scene: &Scene) -> &'static str {
     }
 }
 
+/// The numbers at the end of a branch, with the `error` of its shear.
 fn branch_to_json(
     scene: &Scene,
     b: &BranchSummary,
@@ -182,6 +183,7 @@ fn branch_to_json(
     Value::Object(object)
 }
 
+/// The numbers of the loop of a cycle, with their errors if the branches have error bars.
 fn cycle_to_json(
     scene: &Scene,
     direction: Direction,
@@ -233,7 +235,7 @@ pub(crate) fn yield_ratio(increments: &[Increment]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// The cycles of the motions that the path drives.
+/// The loops of all cycles of the path, for each motion that the path drives.
 pub(crate) fn cycles(scene: &Scene, increments: &[Increment]) -> Vec<(Direction, Cycle)> {
     let driven = |motion: RigidMotion| {
         let mut ends = scene.path.branches.iter().map(|b| &b.to);

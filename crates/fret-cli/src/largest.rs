@@ -100,6 +100,7 @@ impl Largest<'_> {
         )
     }
 
+    /// A length in a readable unit, or over a_H.
     fn length(&self, v: f64) -> String {
         match self.scene.hertz() {
             Some(hertz) if self.units == Units::Hertz => format!("{:.4} a_H", v / hertz.a),

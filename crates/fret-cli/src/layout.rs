@@ -38,7 +38,7 @@ impl Column {
         lines.map(textwrap::core::display_width).max().unwrap_or(0)
     }
 
-    /// Numbers stand at the right, texts at the left.
+    /// The side at which the cells of a column stand: numbers right, texts left.
     fn alignment(&self) -> CellAlignment {
         let is_number = |cell: &String| {
             let cell = cell.trim();
@@ -74,6 +74,7 @@ impl Page {
         Self::with_width(result_width(), heads)
     }
 
+    /// An empty page of this width, with the heads in this style.
     fn with_width(width: usize, heads: Style) -> Self {
         Self {
             width,
@@ -139,7 +140,7 @@ pub(crate) enum Line {
     Row(String),
 }
 
-/// Lines of a table of at most `width` characters.
+/// The lines of a table of at most `width` characters. The first `keys` columns are repeated in each block.
 pub(crate) fn table_lines(columns: &[Column], keys: usize, width: usize) -> Vec<Line> {
     let widths: Vec<usize> = columns.iter().map(|column| column.width() + GAP).collect();
     let mut lines = Vec::new();
@@ -154,8 +155,8 @@ pub(crate) fn table_lines(columns: &[Column], keys: usize, width: usize) -> Vec<
     lines
 }
 
-/// Lines of the columns of a table that stand side by side. Cells are folded if even these are
-/// wider than `width`.
+/// The lines of columns that stand side by side. Texts are folded if the columns together are wider than
+/// `width`.
 fn block_lines(columns: &[&Column], width: usize) -> Vec<Line> {
     let mut table = Table::new();
     table
@@ -190,7 +191,8 @@ fn block_lines(columns: &[&Column], width: usize) -> Vec<Line> {
     lines.collect()
 }
 
-/// A table as text: titles of the columns, then rows.
+/// A table as text: titles, then rows, in blocks of at most `width` characters that repeat the first `keys`
+/// columns.
 #[must_use]
 pub fn table_text(titles: &[String], rows: &[Vec<String>], keys: usize, width: usize) -> String {
     let cell = |row: &Vec<String>, n: usize| row.get(n).cloned().unwrap_or_default();

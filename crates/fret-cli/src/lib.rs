@@ -183,7 +183,7 @@ pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     }
 }
 
-/// Prints help or version, or what is wrong with the command line.
+/// Prints help or version, or the fault in the command line.
 fn print_usage(error: &clap::Error) -> std::io::Result<()> {
     if !error.use_stderr() {
         return error.print().and_then(|()| std::io::stdout().flush());

@@ -78,6 +78,7 @@ impl Loads {
         })
     }
 
+    /// The tractions by reference.
     pub(crate) fn tractions(&self) -> Tractions<'_> {
         Tractions {
             q_x: self.q_x.as_slice(),

@@ -42,6 +42,7 @@ enum Template {
 }
 
 impl Template {
+    /// The text of this example.
     fn text(self) -> &'static str {
         match self {
             Self::UncoatedBall => include_str!("../templates/uncoated_ball.toml"),
@@ -58,7 +59,7 @@ impl Template {
 /// Name of the schema in the first line of each scene, which editors read.
 const SCHEMA_FILE: &str = "scene.schema.json";
 
-/// Writes the scene.
+/// Writes an example of a scene file: the command `fret new`.
 pub(crate) fn new(options: &Options) -> Result<(), Failure> {
     let text = options.template.text();
     let Some(out) = &options.out else {

@@ -20,7 +20,7 @@ pub(crate) fn write_lines(lines: &[String]) -> Result<(), Failure> {
     check_written(written.and_then(|()| out.flush()))
 }
 
-/// Outcome of writing to the standard output.
+/// Converts the outcome of writing to the standard output: a closed pipe is no failure.
 pub(crate) fn check_written(result: io::Result<()>) -> Result<(), Failure> {
     match result {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {

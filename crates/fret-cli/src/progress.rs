@@ -25,6 +25,7 @@ struct Display {
 }
 
 impl Progress {
+    /// A bar for the increments of a scene: none if `quiet`, invisible outside of a terminal.
     pub(crate) fn new(scene: &Scene, quiet: bool) -> Self {
         if quiet {
             return Self { shown: None };
@@ -71,6 +72,7 @@ impl Progress {
         }
     }
 
+    /// Removes the bar.
     pub(crate) fn end(self) {
         if let Some(shown) = self.shown {
             shown.bar.finish_and_clear();

@@ -66,7 +66,7 @@ pub(crate) fn run(command: &str, arguments: &[OsString]) -> Result<u8, Failure> 
     })
 }
 
-/// The named folders of a path without the current one; `None` if no other is left.
+/// The folders of a PYTHONPATH without empty parts, which mean the current folder; `None` if none is left.
 fn named_parts(path: &OsStr) -> Option<OsString> {
     let current = |part: &PathBuf| part.as_os_str().is_empty() || part == Path::new(".");
     let parts: Vec<PathBuf> = std::env::split_paths(path)

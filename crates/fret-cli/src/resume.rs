@@ -20,7 +20,7 @@ pub(crate) struct Options {
     manner: RunOptions,
 }
 
-/// Continues a run.
+/// Continues the run of a store: the command `fret resume`.
 pub(crate) fn resume(options: &Options) -> Result<(), Failure> {
     let manner = &options.manner;
     manner.threads.set();

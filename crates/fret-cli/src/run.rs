@@ -60,7 +60,7 @@ fn seconds(text: &str) -> Result<Duration, String> {
     Duration::try_from_secs_f64(seconds).map_err(|_| "must be a number of seconds >= 0".into())
 }
 
-/// Runs through the load path.
+/// Runs through the load path into a store: the command `fret run`.
 pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     let out = &options.out.path;
     let scene = options.scene.read().map_err(Failure::BadInput)?;
@@ -193,6 +193,7 @@ struct Watcher {
 }
 
 impl Observer for Watcher {
+    /// Passes the increment to the store, and advances the bar.
     fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error> {
         self.increments.push(*increment);
         self.kept.store(true, Ordering::Relaxed);

@@ -102,6 +102,7 @@ enum Depths {
 }
 
 impl Depths {
+    /// Reads depths: their number, or depths in m separated by commas.
     fn read(text: &str) -> Result<Self, String> {
         let allowed = "a number of depths from 1 to 65535, or depths in m, not negative, such as 0,5e-6,10e-6";
         if let Ok(n) = text.parse::<u16>() {
@@ -148,7 +149,7 @@ pub(crate) fn given_residual(body: &Body, given: &[f64]) -> Result<ResidualStres
     ResidualStress::from_profiles(body, &layers)
 }
 
-/// Computes the stress below the contact of a result.
+/// Computes the stress below the contact of a result: the command `fret stress`.
 pub(crate) fn stress(options: &Options) -> Result<(), Failure> {
     check_ending(options).map_err(Failure::BadInput)?;
     let task = Task::new(options, stop_on_interrupt()).map_err(Failure::BadInput)?;
@@ -206,6 +207,7 @@ pub(crate) fn stop_on_interrupt() -> Arc<AtomicBool> {
 }
 
 impl Task {
+    /// Reads the result and the options.
     fn new(options: &Options, stop: Arc<AtomicBool>) -> Result<Self, Error> {
         let store = Store::open_to_read(&options.store)?;
         let scene = store.scene().clone();
@@ -256,6 +258,7 @@ impl Task {
         })
     }
 
+    /// The body below the contact.
     fn body(&self) -> &Body {
         match self.side {
             Side::Body1 => &self.scene.body1,
@@ -263,6 +266,7 @@ impl Task {
         }
     }
 
+    /// The formatter of the largest values of this result.
     fn largest(&self) -> Largest<'_> {
         Largest {
             scene: &self.scene,
@@ -274,6 +278,7 @@ impl Task {
         }
     }
 
+    /// Opens the file to write to, if one is given.
     fn store(&self, options: &Options, line: Option<Line>) -> Result<Option<StressStore>, Error> {
         let Some(out) = &options.out else {
             return Ok(None);
@@ -373,7 +378,7 @@ impl Task {
         Ok(lines)
     }
 
-    /// The body under the loads.
+    /// The body under the loads of the increment.
     fn loaded_body<'a>(&'a self, states: &'a States<'a>) -> LoadedBody<'a> {
         LoadedBody {
             body: self.body(),
@@ -383,6 +388,7 @@ impl Task {
         }
     }
 
+    /// Computes planes at all depths; returns the lines on the largest values.
     fn volume(&self, options: &Options) -> Result<Vec<String>, Error> {
         let grid = &self.scene.grid;
         let (mut image, mut store) = (None, None);

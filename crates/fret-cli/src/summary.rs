@@ -25,6 +25,7 @@ struct Measures {
 }
 
 impl Measures {
+    /// The units of lengths and pressures: of the Hertz contact, or um and MPa without one.
     fn for_scene(scene: &Scene) -> Self {
         scene.hertz().map_or(
             Self {
@@ -186,6 +187,7 @@ fn far_from_yield(scene: &Scene, increments: &[Increment]) -> Option<String> {
 /// A column of the table: title, and its cell for a branch.
 type Column = (String, Box<dyn Fn(&Row<'_>) -> String>);
 
+/// A column of a number of each branch.
 fn column(
     title: impl Into<String>,
     cell: impl Fn(&BranchSummary, &Increment) -> String + 'static,
@@ -196,6 +198,7 @@ fn column(
     )
 }
 
+/// The columns of a table of branches; `wide` adds those that are mostly left out.
 fn columns(scene: &Scene, increments: &[Increment], wide: bool) -> Vec<Column> {
     let Measures { radius, pressure } = Measures::for_scene(scene);
     let bare = frictionless(scene);
@@ -265,7 +268,7 @@ fn columns(scene: &Scene, increments: &[Increment], wide: bool) -> Vec<Column> {
     columns
 }
 
-/// Work of the solvers.
+/// Columns of the work of the solvers: convolutions, passes, iterations.
 fn work_columns() -> [Column; 4] {
     [
         column("convo-\nlutions", |b, _| {

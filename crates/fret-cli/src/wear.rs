@@ -65,6 +65,7 @@ pub(crate) enum Display {
 }
 
 impl Options {
+    /// The display while it runs and at the end.
     fn shown(&self) -> Display {
         match (self.json, self.quiet) {
             (true, _) => Display::Json,
@@ -121,7 +122,8 @@ pub(crate) fn resume(
     Ok(())
 }
 
-/// Runs jump by jump into the store, with a bar and a summary; raises `kept` after the first jump.
+/// Runs jump by jump into the store, with a bar, and prints the summary. Raises `kept` after the first jump,
+/// from when on an interrupt leaves a store.
 fn to_end(
     mut run: WearRun,
     mut store: WearStore,
@@ -187,6 +189,7 @@ fn to_end(
     printed
 }
 
+/// A bar over the cycles; none if `quiet`.
 fn bar(cycles: f64, quiet: bool) -> ProgressBar {
     let bar = if quiet || !can_draw() {
         ProgressBar::hidden()
@@ -209,6 +212,7 @@ fn to_failure(error: Error) -> Failure {
     }
 }
 
+/// An event in words: a coating worn through, or a depth reached.
 fn describe_event(event: &Event) -> String {
     let body = event.body;
     let cycles = with_error(event.cycles, Some(event.cycles_error));

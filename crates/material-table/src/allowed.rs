@@ -16,7 +16,7 @@ pub enum Allowed {
 }
 
 impl Allowed {
-    /// Whether a value is one.
+    /// Whether a value is allowed.
     pub fn holds(self, value: f64) -> bool {
         value.is_finite()
             && match self {

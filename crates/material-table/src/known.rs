@@ -18,7 +18,8 @@ pub enum Known {
 }
 
 impl Known {
-    /// How a number is known, by what its source begins with.
+    /// The way in which a number is known (from a source, estimated, from memory), by the mark at the beginning
+    /// of its source.
     pub fn of(source: &str) -> Self {
         let marked = |mark: &str| source.starts_with(mark.trim_end());
         if marked(RECALLED) {

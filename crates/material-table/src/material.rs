@@ -18,6 +18,7 @@ pub struct Quantity {
     pub allowed: Allowed,
 }
 
+/// A positive quantity with its unit and meaning.
 const fn quantity(name: &'static str, unit: &'static str, long_name: &'static str) -> Quantity {
     Quantity {
         name,
@@ -27,6 +28,7 @@ const fn quantity(name: &'static str, unit: &'static str, long_name: &'static st
     }
 }
 
+/// A negative exponent without a unit.
 const fn exponent(name: &'static str, long_name: &'static str) -> Quantity {
     Quantity {
         name,

@@ -152,7 +152,7 @@ fn is_compound(name: &str) -> bool {
     (is_formula(&symbols) || counted && starts && of_symbols(&symbols)) && !ELEMENTS.contains(&name)
 }
 
-/// Whether a text is made of symbols of elements alone.
+/// Whether a name is a formula: symbols of elements alone.
 fn of_symbols(name: &str) -> bool {
     let mut symbols = name;
     while !symbols.is_empty() {
@@ -196,6 +196,7 @@ fn is_formula(name: &str) -> bool {
     has(char::is_ascii_lowercase) && has(char::is_ascii_uppercase) && of_symbols(name)
 }
 
+/// Reads the entry of a number: its value and its source, by the key of `sources`.
 fn sourced(
     entry: &Value,
     quantity: &Quantity,

@@ -41,6 +41,8 @@ const fn any(name: &'static str, kind: Kind, keys: &'static [&'static str]) -> Q
     of(name, kind, keys, (0.0, ANY), "", "")
 }
 
+/// A row of the table: name, kind, keys in scene files, plausible range, and the words for values outside and
+/// for the usual ones.
 const fn of(
     name: &'static str,
     kind: Kind,
@@ -413,7 +415,8 @@ pub fn of_key(key: &str) -> Option<&'static Quantity> {
         .max_by_key(length)
 }
 
-/// The doubt of a value, by its key and the name that it is shown by.
+/// A warning that a value is implausible for its key; none if it is plausible. `shown` is its name for the
+/// user.
 pub fn doubt_of(key: &str, shown: &str, value: f64) -> Option<String> {
     of_key(key)?.doubt(shown, value)
 }
@@ -429,7 +432,8 @@ pub fn quantity(name: &str) -> &'static Quantity {
 }
 
 impl Quantity {
-    /// The doubt of a value, if it lies outside the range; `key` is its name where it was given.
+    /// A warning that a value lies outside the plausible range; none if it does not. `key` is its name for the
+    /// user.
     pub fn doubt(&self, key: &str, value: f64) -> Option<String> {
         let size = value.abs();
         let meant = size == 0.0 || !size.is_finite() || (self.least <= size && size <= self.most);

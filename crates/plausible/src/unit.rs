@@ -50,7 +50,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Its unit in SI; empty for a number.
+    /// The unit of this kind in SI; empty for a number.
     pub const fn unit(self) -> &'static str {
         match self {
             Self::Number => "",
@@ -76,7 +76,7 @@ impl Kind {
         }
     }
 
-    /// Its name.
+    /// The name of this kind.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Number => "number",

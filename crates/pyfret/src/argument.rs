@@ -14,6 +14,7 @@ pub(crate) type Answer<T> = Result<T, Failed>;
 fails!(Failed: Error => to_python, error::Failed => PyErr::from);
 
 impl From<Failed> for error::Failed {
+    /// The exception of Python for a failure.
     fn from(failed: Failed) -> Self {
         PyErr::from(failed).into()
     }

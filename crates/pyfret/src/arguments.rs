@@ -17,7 +17,7 @@ use pyo3::conversion::FromPyObjectOwned;
 use pyo3::exceptions::{PyMemoryError, PyTypeError};
 use pyo3::types::{PyBool, PyFloat, PyInt, PyList, PyString, PyTuple};
 
-/// An argument that is a number, or holds some; True and False are refused, wherever they stand.
+/// Reads an argument that is a number, or holds numbers. True and False are refused, wherever they stand.
 pub(crate) fn number<'py, T: FromPyObjectOwned<'py>>(value: &Bound<'py, PyAny>) -> PyResult<T> {
     refuse_truths(value)?;
     let extracted: Result<T, _> = value.extract();
@@ -30,7 +30,7 @@ pub(crate) fn number<'py, T: FromPyObjectOwned<'py>>(value: &Bound<'py, PyAny>) 
     }
 }
 
-/// A text or a quantity of pint, where the unit of the number is not known: refused with the number to
+/// Refuses a text or a quantity of pint where the unit of the number is not known; the error has the number to
 /// write.
 fn refuse_texts(value: &Bound<'_, PyAny>) -> PyResult<()> {
     let Some(text) = crate::document::text_of(value)? else {
@@ -46,6 +46,7 @@ fn refuse_texts(value: &Bound<'_, PyAny>) -> PyResult<()> {
     )))
 }
 
+/// Refuses True and False, also within lists and tuples.
 fn refuse_truths(value: &Bound<'_, PyAny>) -> PyResult<()> {
     if value.is_instance_of::<PyFloat>() || value.is_exact_instance_of::<PyInt>() {
         return Ok(());
@@ -88,14 +89,15 @@ const ALWAYS_FITS: f64 = 16e6;
 impl<'py, D: Dimension> Deref for Array<'py, D> {
     type Target = PyArrayLike<'py, f64, D, AllowTypeChange>;
 
+    /// The array as ndarray sees it.
     fn deref(&self) -> &Self::Target {
         &self.numbers
     }
 }
 
 impl Field<'_> {
-    /// The numbers in row-major order; refused, by the name of the field, if it is not one on the
-    /// cells of the grid.
+    /// The numbers in row-major order; fails if the shape is not the one of the grid. `name` names the field in
+    /// the error.
     pub(crate) fn on_grid(&self, name: &str, grid: &Grid) -> PyResult<Vec<f64>> {
         let (shape, numbers) = ((grid.nx, grid.ny), self.as_array());
         if numbers.dim() != shape {
@@ -108,7 +110,8 @@ impl Field<'_> {
         Ok(numbers.iter().copied().collect())
     }
 
-    /// Refuses labels with other distances of the points than the given ones \[m\].
+    /// Fails if the labels of the field have another spacing than the `given` one along x and y \[m\]. `what`
+    /// describes the points.
     pub(crate) fn must_have_pitch(
         &self,
         name: &str,
@@ -132,6 +135,7 @@ impl<'a, 'py, D: Dimension + 'py> FromPyObject<'a, 'py> for Array<'py, D> {
 
     const INPUT_TYPE: PyStaticExpr = crate::hints::ARRAY_LIKE;
 
+    /// Reads an array without holes.
     fn extract(value: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
         Self::through_the_door(&value, false)
     }
@@ -143,6 +147,8 @@ impl<'py, D: Dimension + 'py> Array<'py, D> {
         Self::through_the_door(value, true)
     }
 
+    /// Reads an array: units, masks and labels are taken off by Python (`plain`); missing values become NaN if
+    /// `holes`, and are refused otherwise.
     fn through_the_door(value: &Bound<'py, PyAny>, holes: bool) -> PyResult<Self> {
         if let Ok(size) = value
             .getattr("size")
@@ -182,6 +188,7 @@ pub(crate) struct Mask<'py, D: Dimension>(PyReadonlyArray<'py, bool, D>);
 impl<'py, D: Dimension> Deref for Mask<'py, D> {
     type Target = PyReadonlyArray<'py, bool, D>;
 
+    /// The mask as ndarray sees it.
     fn deref(&self) -> &Self::Target {
         &self.0
     }
@@ -192,6 +199,7 @@ impl<'a, 'py, D: Dimension + 'py> FromPyObject<'a, 'py> for Mask<'py, D> {
 
     const INPUT_TYPE: PyStaticExpr = crate::hints::MASK;
 
+    /// Reads a mask whose copy fits into memory.
     fn extract(value: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
         let array: PyReadonlyArray<'py, bool, D> = value.extract()?;
         must_fit(array.as_array().len(), 1.0)?;
@@ -199,8 +207,8 @@ impl<'a, 'py, D: Dimension + 'py> FromPyObject<'a, 'py> for Mask<'py, D> {
     }
 }
 
-/// Refuses arrays of so many numbers of so many bytes whose copies do not fit: one that repeats its numbers takes no memory,
-/// a copy of it does.
+/// Fails if a copy of so many `numbers` of so many `bytes` each does not fit into memory. An array that repeats
+/// its numbers takes little, its copy does not.
 pub(crate) fn must_fit(numbers: usize, bytes: f64) -> PyResult<()> {
     let needed = COPIES * bytes * numbers as f64;
     // Reading the memory of the system takes longer than copying a small array.
@@ -238,6 +246,7 @@ impl<'py, T: FromPyObjectOwned<'py>> FromPyObject<'_, 'py> for List<T> {
 
     const INPUT_TYPE: PyStaticExpr = sequence_of!(T::INPUT_TYPE);
 
+    /// Reads any iterable but a text; each value is read by the rule of its type.
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if value.is_instance_of::<PyString>() {
             return Err(PyTypeError::new_err("must be a list of values, not a text"));

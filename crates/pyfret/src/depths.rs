@@ -37,7 +37,7 @@ pub(crate) fn depth_tables_made() -> u64 {
     contact_core::kernels::depth_tables_made()
 }
 
-/// Depths [m], each with its layer.
+/// Pairs depths \[m\] with their layers; fails if the lists differ in length.
 pub(crate) fn in_layers(z: &[f64], layer: &[usize]) -> PyResult<Vec<Depth>> {
     if z.len() != layer.len() {
         refuse!("z and layer differ in length");

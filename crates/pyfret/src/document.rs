@@ -15,11 +15,13 @@ impl<'py> FromPyObject<'_, 'py> for Document {
 
     const INPUT_TYPE: PyStaticExpr = crate::hints::NAMED;
 
+    /// Reads a dict as a table of a scene file.
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         table(&*value.cast::<PyDict>()?).map(Self)
     }
 }
 
+/// Converts a dict to a table; an error has the name of the entry.
 fn table(dict: &Bound<'_, PyDict>) -> PyResult<Table> {
     let entries = dict.iter().map(|(name, value)| {
         let name: String = name.extract()?;
@@ -29,12 +31,13 @@ fn table(dict: &Bound<'_, PyDict>) -> PyResult<Table> {
     entries.collect()
 }
 
-/// An error of a value with the name that it has.
+/// Puts the name of an entry before the message of an error.
 fn named(name: &str, error: PyErr, py: Python<'_>) -> PyErr {
     PyTypeError::new_err(format!("{name} = {}", error.value(py)))
 }
 
-/// A value: None within a list is an error, a quantity of pint a text with its unit.
+/// Converts a value of Python to TOML. A quantity of pint becomes a text with its unit; None within a list is
+/// an error.
 fn value(of: &Bound<'_, PyAny>) -> PyResult<Value> {
     if let Ok(flag) = of.cast::<PyBool>() {
         return Ok(Value::Boolean(flag.is_true()));
@@ -76,7 +79,7 @@ fn value(of: &Bound<'_, PyAny>) -> PyResult<Value> {
     )))
 }
 
-/// A table of a scene file as a dict.
+/// Converts a table of a scene file to a dict.
 pub(crate) fn to_dict<'py>(table: &Table, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     for (name, value) in table {
@@ -85,6 +88,7 @@ pub(crate) fn to_dict<'py>(table: &Table, py: Python<'py>) -> PyResult<Bound<'py
     Ok(dict)
 }
 
+/// Converts a TOML value to Python.
 fn to_python<'py>(value: &Value, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
     match value {
         Value::Boolean(flag) => flag.into_bound_py_any(py),
@@ -100,14 +104,14 @@ fn to_python<'py>(value: &Value, py: Python<'py>) -> PyResult<Bound<'py, PyAny>>
     }
 }
 
-/// A quantity of pint as a text with its unit, `380.0 GPa`.
+/// Converts a quantity of pint to a text with its unit, `380.0 GPa`.
 fn quantity(of: &Bound<'_, PyAny>) -> PyResult<String> {
     let number: f64 = of.getattr("magnitude")?.extract()?;
     let unit = of.getattr("units")?.call_method1("__format__", ("~P",))?;
     Ok(format!("{number:?} {unit}"))
 }
 
-/// A text, or a quantity of pint as one; nothing of other values.
+/// The text of a value that is a text, or a quantity of pint; none for other values.
 pub(crate) fn text_of(value: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     if value.is_instance_of::<PyString>() {
         return value.extract().map(Some);

@@ -80,6 +80,7 @@ pub(crate) fn doubt_quantity(
     Ok(row(quantity)?.doubt(shown, value))
 }
 
+/// The row of the table of quantities with this name.
 fn row(name: &str) -> PyResult<&'static Quantity> {
     let row = QUANTITIES.iter().find(|q| q.name == name);
     row.ok_or_else(|| PyKeyError::new_err(format!("no quantity {name:?}")))

@@ -67,12 +67,12 @@ pub(crate) struct EigenstrainOperator {
 made!(EigenstrainOperator by "EigenstrainOperator": body, grid, depth, height);
 
 impl EigenstrainOperator {
-    /// Does `f` with the operator.
+    /// Calls `f` with the operator, which is locked meanwhile.
     fn with_operator<T>(&self, f: impl FnOnce(&mut Operator) -> T) -> T {
         f(&mut self.inner.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// A number of each plane.
+    /// Collects `f` of each plane.
     fn of_planes<T>(&self, f: impl Fn(&Operator, usize) -> T) -> Vec<T> {
         self.with_operator(|own| (0..own.mesh().planes()).map(|n| f(own, n)).collect())
     }

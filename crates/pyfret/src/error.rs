@@ -91,10 +91,10 @@ fails!(
     Error => to_python,
     fatigue::Error => of_criterion,
     material_table::Error => |error: material_table::Error| of_criterion(error.into()),
-    ::fracture::Error => |error| to_python(contact_assess::crack::refused(error)),
+    ::fracture::Error => |error| to_python(contact_assess::crack::to_core_error(error)),
 );
 
-/// Python exception with the message of `error`.
+/// The exception of Python for an error of the core, with its message.
 pub(crate) fn to_python(error: Error) -> PyErr {
     let text = shown(&error.to_string()).into_owned();
     match error {
@@ -130,7 +130,7 @@ pub(crate) fn to_python(error: Error) -> PyErr {
     }
 }
 
-/// Python exception with the message of an error of the criteria.
+/// The exception of Python for an error of the criteria, with its message.
 pub(crate) fn of_criterion(error: fatigue::Error) -> PyErr {
     let text = shown(&error.to_string()).into_owned();
     match error {
@@ -147,8 +147,8 @@ macro_rules! refuse {
 }
 pub(crate) use refuse;
 
-/// Refuses an argument of another type: what was found, and what is wanted, with an example. The
-/// name of the argument is put before it by PyO3.
+/// The TypeError of an argument of a wrong type: what was found, and what is `wanted`, with an example. PyO3
+/// puts the name of the argument before it.
 pub(crate) fn must_be(value: &Bound<'_, PyAny>, wanted: &str) -> PyErr {
     let shown = value
         .repr()
@@ -168,6 +168,7 @@ macro_rules! takes {
 
             const INPUT_TYPE: pyo3::inspect::PyStaticExpr = <Self as pyo3::PyTypeInfo>::TYPE_HINT;
 
+            /// Takes an instance of the class; refuses all else with an example.
             fn extract(value: pyo3::Borrowed<'_, 'py, pyo3::PyAny>) -> pyo3::PyResult<Self> {
                 match value.cast::<Self>() {
                     Ok(found) => Ok(found.get().clone()),

@@ -30,7 +30,7 @@ pub(crate) struct Running {
 }
 
 impl Running {
-    /// Does `work` with the threads of this process.
+    /// Does `work` on the threads of this process.
     pub(crate) fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
         match &self.pool {
             Some(pool) => pool.install(work),
@@ -40,12 +40,14 @@ impl Running {
 }
 
 impl Drop for Running {
+    /// Notes that the call is over.
     fn drop(&mut self) {
         AT_WORK.fetch_sub(1, Ordering::Relaxed);
     }
 }
 
-/// Begins a call. Fails in a copy of a process that was at work when it was copied.
+/// Begins a call. Fails in a fork of a process that was computing when it was forked, since its threads are
+/// gone.
 pub(crate) fn in_this_process() -> PyResult<Running> {
     let mut home = HOME.lock().unwrap_or_else(PoisonError::into_inner);
     let process = std::process::id();

@@ -5,14 +5,15 @@ use pyo3::ffi;
 use pyo3::prelude::*;
 use pyo3::types::{PyCFunction, PyDict, PyTuple, PyType};
 
-/// Puts `pyfret._util.compiled` before all that the module exports.
+/// Wraps all that the module exports by `pyfret._util.compiled`, which checks arguments.
 pub(crate) fn guard(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let compiled = module.py().import("pyfret._util.compiled")?;
     compiled.call_method1("guard", (module, constructors(module)?))?;
     Ok(())
 }
 
-/// The constructors of the classes of the module, functions of the class and its arguments.
+/// The constructors of the classes, as functions of class and arguments. Python reaches a constructor by
+/// ``__new__`` alone, which gets another value here.
 ///
 /// Python reaches a constructor by ``__new__`` alone, and no more once ``__new__`` has another value.
 fn constructors<'py>(module: &Bound<'py, PyModule>) -> PyResult<Bound<'py, PyDict>> {
@@ -27,6 +28,7 @@ fn constructors<'py>(module: &Bound<'py, PyModule>) -> PyResult<Bound<'py, PyDic
     Ok(makers)
 }
 
+/// The constructor of a class from its slot; none if it has none.
 fn constructor<'py>(class: &Bound<'py, PyType>) -> PyResult<Option<Bound<'py, PyCFunction>>> {
     let py = class.py();
     // SAFETY: the type is alive; the slot of a class, if it has one, holds a function of this type.

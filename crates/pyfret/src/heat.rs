@@ -12,6 +12,7 @@ use crate::scene::{Body, Grid};
 /// Conductivity and heat capacity of each layer.
 type Conductors = List<(f64, f64)>;
 
+/// The layers of a body with their conductors; `key` names the argument in errors.
 fn layers(conductors: &Conductors, body: &Body, key: &str) -> Answer<core::Layers> {
     let conductors: Vec<_> = conductors
         .iter()

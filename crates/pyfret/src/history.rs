@@ -176,6 +176,7 @@ attributes!(Envelope, self:
     cycles: Vec<(usize, usize)> = self.cycles.clone();
 );
 
+/// The error of a call after the end.
 fn finished() -> PyErr {
     PyValueError::new_err("the envelope has been finished, or was stopped on the way")
 }

@@ -13,7 +13,7 @@ use crate::prelude::*;
 /// Time between two looks at the signals.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// Does `work` as [`interruptible`] does, with what stops it.
+/// Does `work` as [`interruptible`]; it gets the flag that an interrupt raises.
 pub(crate) fn stoppable<T: Send>(
     py: Python<'_>,
     work: impl FnOnce(&Arc<AtomicBool>) -> Result<T, Error> + Send,
@@ -26,9 +26,8 @@ pub(crate) fn stoppable<T: Send>(
     clippy::redundant_closure_for_method_calls,
     reason = "the method is not general enough in its lifetime"
 )]
-/// Does `work` in a thread of its own while the interpreter's lock is free and the caller's
-/// thread hears signals. What a signal handler raises is returned; it raises `stop` too, on
-/// which the work is to end early.
+/// Does `work` in another thread without the interpreter's lock, while the caller's thread handles signals.
+/// What a signal handler raises is returned; it also raises `stop`, on which the work ends early.
 pub(crate) fn interruptible<T: Send>(
     py: Python<'_>,
     stop: &Arc<AtomicBool>,

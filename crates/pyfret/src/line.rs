@@ -7,7 +7,8 @@ use crate::scene::Grid;
 
 /// Places along a line and their x, y [m].
 type Places = (Vec<f64>, Vec<(f64, f64)>);
-/// The line along x or y, or through a point at an azimuth.
+/// The line y = const (along x), x = const (along y), or through a point x, y at an azimuth; fails if neither x
+/// nor y is given.
 pub(crate) fn line(x: Option<f64>, y: Option<f64>, azimuth: Option<f64>) -> PyResult<Line> {
     match (x, y, azimuth) {
         (None, Some(y), None) => Ok(Line::AlongX(y)),
@@ -19,7 +20,7 @@ pub(crate) fn line(x: Option<f64>, y: Option<f64>, azimuth: Option<f64>) -> PyRe
     }
 }
 
-/// Line through x and y, or none where neither is given.
+/// The line as [`line`], or none if neither x nor y is given.
 pub(crate) fn line_if_given(
     x: Option<f64>,
     y: Option<f64>,
@@ -34,6 +35,7 @@ pub(crate) fn line_if_given(
 /// x, y and azimuth that name a line.
 pub(crate) type LineName = (Option<f64>, Option<f64>, Option<f64>);
 
+/// x, y and azimuth of a line, as [`line`] takes them.
 pub(crate) fn name_of(line: Line) -> LineName {
     match line {
         Line::AlongX(y) => (None, Some(y), None),

@@ -29,6 +29,7 @@ pub(crate) struct March {
 }
 
 impl March {
+    /// The march, which only this object uses.
     fn inner(&mut self) -> &mut core::March {
         self.inner.get_mut().unwrap_or_else(PoisonError::into_inner)
     }

@@ -38,7 +38,7 @@ takes!(Elastic, "a material, such as Elastic(E=210e9, nu=0.3)");
 pub(crate) struct Material(pub(crate) core::Elastic, pub(crate) [f64; 3]);
 
 impl Material {
-    /// A material whose body has no shape.
+    /// A material alone, whose body has no shape.
     pub(crate) fn without_shape(material: core::Elastic) -> Self {
         Self(material, [0.0; 3])
     }
@@ -55,6 +55,7 @@ impl<'py> FromPyObject<'_, 'py> for Material {
         }
     );
 
+    /// Takes a material, or the substrate of a body.
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(material) = value.extract::<Elastic>() {
             return Ok(Self::without_shape(material.0));

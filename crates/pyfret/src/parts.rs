@@ -7,7 +7,7 @@ use pyo3::types::{PyList, PyTuple};
 use crate::prelude::*;
 use crate::python::own;
 
-/// The arguments of the constructor that make `value` again: (argument, attribute) each.
+/// The arguments of the constructor that make `value` again, from pairs (argument, attribute).
 pub(crate) fn arguments<'py>(
     value: &Bound<'py, PyAny>,
     parts: &[(&str, &str)],
@@ -19,7 +19,7 @@ pub(crate) fn arguments<'py>(
     Ok(arguments)
 }
 
-/// A hash of the parts: equal values have the same.
+/// A hash of the parts; equal values have equal hashes.
 pub(crate) fn hash(value: &Bound<'_, PyAny>, parts: &[(&str, &str)]) -> PyResult<isize> {
     let mut hashes = vec![value.get_type().into_any()];
     for (_, attribute) in parts {
@@ -28,7 +28,7 @@ pub(crate) fn hash(value: &Bound<'_, PyAny>, parts: &[(&str, &str)]) -> PyResult
     PyTuple::new(value.py(), hashes)?.hash()
 }
 
-/// Lists as tuples, arrays as their bytes.
+/// Converts lists to tuples, and arrays to their bytes.
 fn hashable(value: Bound<'_, PyAny>) -> PyResult<Bound<'_, PyAny>> {
     if value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>() {
         let items: Vec<_> = value
@@ -54,7 +54,7 @@ pub(crate) type Remade<'py> = (
     ),
 );
 
-/// A function or a class of the module and the arguments that make `value` again.
+/// The parts that `pickle` needs to make `value` again: the function or class `by` of the module and its arguments.
 pub(crate) fn remade<'py>(
     value: &Bound<'py, PyAny>,
     by: &str,
@@ -65,7 +65,7 @@ pub(crate) fn remade<'py>(
     Ok((own(py, "remake")?, (own(py, by)?, None, Some(keywords))))
 }
 
-/// A class, its method and the arguments which make a value again.
+/// The parts that `pickle` needs to make a value again by a method of its class.
 pub(crate) fn remade_by_method<'py>(
     class: Bound<'py, PyAny>,
     method: &str,
@@ -75,7 +75,7 @@ pub(crate) fn remade_by_method<'py>(
     Ok((remake, (class, Some(method.to_owned()), Some(arguments))))
 }
 
-/// Whether another value is of the same class with equal parts.
+/// Whether `other` is of the same class and has equal parts.
 pub(crate) fn equal(
     value: &Bound<'_, PyAny>,
     other: &Bound<'_, PyAny>,
@@ -87,7 +87,7 @@ pub(crate) fn equal(
     arguments(value, parts)?.eq(arguments(other, parts)?)
 }
 
-/// The class with its parts, as they are given to make it.
+/// The text of a call of the constructor that makes `value`.
 pub(crate) fn shown(value: &Bound<'_, PyAny>, parts: &[(&str, &str)]) -> PyResult<String> {
     let texts = parts.iter().map(|(argument, attribute)| {
         let text = value.getattr(*attribute)?.repr()?;
@@ -149,7 +149,7 @@ macro_rules! made {
 }
 pub(crate) use made;
 
-/// A value of the class of `value` with some of its parts exchanged.
+/// A value of the same class with some parts changed.
 pub(crate) fn replaced<'py>(
     value: &Bound<'py, PyAny>,
     parts: &[(&str, &str)],
@@ -237,6 +237,7 @@ macro_rules! members {
                 type_hint_union!(<Self as pyo3::PyTypeInfo>::TYPE_HINT, $crate::hints::TEXT)
             };
 
+            /// Takes a member of the enumeration, or its name.
             fn extract(value: pyo3::Borrowed<'_, 'py, pyo3::PyAny>) -> pyo3::PyResult<Self> {
                 if let Ok(member) = value.cast::<Self>() {
                     return Ok(*member.get());
@@ -281,7 +282,7 @@ macro_rules! members {
 }
 pub(crate) use members;
 
-/// The class and the name of a member of an enumeration, as `pickle` wants it.
+/// The parts that `pickle` needs for a member of an enumeration: its class and name.
 pub(crate) fn member<'py>(value: &Bound<'py, PyAny>) -> PyResult<Remade<'py>> {
     // Shown as `Preset.FAST`.
     let shown = value.repr()?.to_string();

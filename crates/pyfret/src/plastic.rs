@@ -53,7 +53,7 @@ takes!(
     "a law of yielding, such as Plastic(s_y=900e6, hardening=5e9)"
 );
 
-/// Numbers of the back stresses: one, or one for each.
+/// Reads a number for each back stress: one number, or a list. `name` names it in errors.
 fn of_back_stresses(
     name: &str,
     value: Option<&Bound<'_, PyAny>>,

@@ -6,12 +6,12 @@ use crate::prelude::*;
 
 static MODULE: PyOnceLock<Py<PyModule>> = PyOnceLock::new();
 
-/// Keeps the module when it is made.
+/// Keeps the module, when it is made, for [`own`].
 pub(crate) fn keep(module: &Bound<'_, PyModule>) {
     let _ = MODULE.set(module.py(), module.clone().unbind());
 }
 
-/// A function or class of the compiled module.
+/// A function or class of the compiled module by its name.
 pub(crate) fn own<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
     let module = MODULE
         .get(py)
@@ -19,12 +19,12 @@ pub(crate) fn own<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny
     module.bind(py).getattr(name)
 }
 
-/// A function or class of the one module of Python that the compiled module imports.
+/// A function or class, by its name, of the one Python module that the compiled module imports.
 pub(crate) fn from_python<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
     py.import("pyfret.called_from_rust")?.getattr(name)
 }
 
-/// Refuses an attribute of an object, with the nearest one that it has.
+/// The error of an attribute that an object does not have, with the nearest name.
 pub(crate) fn missing_attribute(object: &Bound<'_, PyAny>, name: &str) -> PyErr {
     let refused =
         from_python(object.py(), "missing_attribute").and_then(|f| f.call1((object, name)));

@@ -5,7 +5,7 @@ use contact_core::scene::quantity as in_si;
 use crate::document::text_of;
 use crate::prelude::*;
 
-/// The number in SI of a quantity that has this name in a scene file.
+/// The number in SI of a value with this name in a scene file; a text or quantity of pint brings its unit.
 pub(crate) fn si(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let Some(text) = text_of(value)? else {
         return number(value);

@@ -15,7 +15,7 @@ pub(crate) struct Profile(pub(crate) Core);
 /// Residual stress of every layer, where it is given.
 pub(crate) type Profiles = Option<List<Profile>>;
 
-/// The residual stress of a body: what is given for each layer, or its own.
+/// The residual stress of a body: the `given` one of each layer, or its own.
 pub(crate) fn of_body(body: &Body, given: Profiles) -> Answer<ResidualStress> {
     let layers = given.unwrap_or_default().into_iter().map(|layer| layer.0);
     Ok(ResidualStress::from_profiles(
@@ -29,6 +29,7 @@ impl<'py> FromPyObject<'_, 'py> for Profile {
 
     const INPUT_TYPE: PyStaticExpr = ARRAY_LIKE;
 
+    /// Takes a uniform stress, or rows of depth and stress.
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         let has = |name: &str| value.hasattr(name).unwrap_or(false);
         let is_table =
@@ -74,6 +75,7 @@ impl<'py> FromPyObject<'_, 'py> for Profile {
     }
 }
 
+/// The error of any other value.
 fn wrong() -> PyErr {
     PyValueError::new_err(
         "residual: must be a stress in Pa, or a table of depth and stress, [[depth, s], ..] or \
@@ -88,7 +90,8 @@ pub(crate) enum Shown {
     Rows(Vec<Vec<f64>>),
 }
 
-/// A number or rows, as they are given; None where there is no stress.
+/// Residual stress in the form that a user gives: one number if uniform and equal along x and y, else rows
+/// (depth, s_xx, s_yy). None if there is no stress.
 pub(crate) fn shown(of: &Core) -> Option<Shown> {
     match of.rows.as_slice() {
         [] => None,
@@ -97,7 +100,7 @@ pub(crate) fn shown(of: &Core) -> Option<Shown> {
     }
 }
 
-/// The text that makes it again.
+/// The text of an expression that makes it again.
 pub(crate) fn text(of: &Core) -> String {
     match of.rows.as_slice() {
         [[_, xx, yy]] if xx == yy => format!("{xx:?}"),

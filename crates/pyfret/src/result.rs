@@ -28,6 +28,7 @@ struct Watch<K> {
 }
 
 impl<K: Observer> Observer for Watch<K> {
+    /// Passes the increment to the keeper, then calls the user's function; its exception ends the run.
     fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error> {
         self.keeper.on_increment(march, increment)?;
         let Some(call) = &self.on_increment else {
@@ -52,7 +53,7 @@ impl<K: Observer> Observer for Watch<K> {
     }
 }
 
-/// Seconds between two checkpoints.
+/// Time between two checkpoints from seconds; fails if negative or NaN.
 fn interval(checkpoint: f64) -> PyResult<Duration> {
     Duration::try_from_secs_f64(checkpoint).map_err(|_| {
         let allowed = "a number of seconds >= 0";
@@ -60,7 +61,7 @@ fn interval(checkpoint: f64) -> PyResult<Duration> {
     })
 }
 
-/// Does `run` with a keeper that is watched; gives both.
+/// Does `run` with an observer that keeps results and calls `on_increment`; returns the keeper and the result.
 fn watched<K: Observer + Send, T: Send>(
     py: Python<'_>,
     keeper: K,
@@ -81,7 +82,7 @@ fn watched<K: Observer + Send, T: Send>(
     }
 }
 
-/// Refuses scenes that no run comes to.
+/// Fails at scenes that a run would refuse later.
 fn check(scene: &Scene) -> Answer<()> {
     Ok(scene.0.check_fit()?)
 }
@@ -89,7 +90,8 @@ fn check(scene: &Scene) -> Answer<()> {
 /// The error bars of a run, or why there are none.
 type Bars = Result<Vec<ErrorBars>, Error>;
 
-/// Goes through the whole path; gives the error bars if `error`.
+/// Runs through the whole path with increments chosen like the ones of `like`, if given; returns the error bars if
+/// `error`.
 fn whole(
     scene: &Scene,
     like: Option<&Scene>,

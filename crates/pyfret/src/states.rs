@@ -22,7 +22,7 @@ pub(crate) struct States {
 }
 
 impl States {
-    /// The states; refused if they are on another grid.
+    /// The moments; fails if they are on another grid.
     pub(crate) fn moments_on(&self, grid: &Cells) -> PyResult<&Moments> {
         if self.grid != *grid {
             refuse!("states: are on another grid");
@@ -30,6 +30,7 @@ impl States {
         Ok(&self.moments)
     }
 
+    /// The cells and the moments.
     pub(crate) fn parts(&self) -> (&Cells, &Moments) {
         (&self.grid, &self.moments)
     }

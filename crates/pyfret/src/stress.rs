@@ -14,6 +14,7 @@ use crate::prelude::*;
 /// Numbers for Python, one row per point.
 type Matrix<'py> = Bound<'py, PyArray2<f64>>;
 
+/// The measures of stress with these names; the error lists all names.
 pub(crate) fn measures(names: &[String]) -> PyResult<Vec<Measure>> {
     let measures = || -> Vec<_> { core::MEASURES.iter().map(|m| m.name).collect() };
     names
@@ -36,7 +37,7 @@ pub(crate) fn probe_labels() -> HashMap<&'static str, (&'static str, &'static st
     core::Probe::all().map(label).collect()
 }
 
-/// The stresses of n points, from an array of shape (6, n).
+/// The stress tensors of n points, from an array of shape (6, n).
 fn tensors(stress: &Field<'_>) -> PyResult<Vec<StressTensor>> {
     let stress = stress.as_array();
     if stress.nrows() != 6 {

@@ -83,6 +83,7 @@ type Judgement = (f64, f64, f64, f64, usize, Option<&'static str>, f64, Errors);
 /// Errors by source: along x, y and z, of the tractions and of the solution.
 type Errors = (f64, f64, f64, f64, Option<f64>);
 
+/// The errors along x, y, z, by the tractions and by the solution, NaN if unknown.
 pub(crate) fn errors(of: core::Errors) -> Errors {
     (
         of.x,
@@ -93,6 +94,7 @@ pub(crate) fn errors(of: core::Errors) -> Errors {
     )
 }
 
+/// The word for the zone whose border is crossed.
 pub(crate) fn zone_name(zone: core::Zone) -> &'static str {
     match zone {
         core::Zone::Contact => "rim",
@@ -101,6 +103,7 @@ pub(crate) fn zone_name(zone: core::Zone) -> &'static str {
 }
 
 impl Subsurface {
+    /// The tractions by reference.
     fn tractions(&self) -> Tractions<'_> {
         let [q_x, q_y, p] = &self.fields;
         Tractions {
@@ -110,11 +113,12 @@ impl Subsurface {
         }
     }
 
+    /// The stick mask of the state, if it has one.
     fn stick(&self) -> Vec<&[bool]> {
         self.stick.iter().map(Vec::as_slice).collect()
     }
 
-    /// Does `work` under the state, which `stop` ends.
+    /// Calls `work` with body, grid and the state; `stop` ends it.
     fn with_states<T>(
         &self,
         stop: &Arc<AtomicBool>,
@@ -132,6 +136,7 @@ impl Subsurface {
         work(&self.body.0, &self.grid.0, states)
     }
 
+    /// Prepares planes below the contact.
     fn slices(&self, stop: &Arc<AtomicBool>) -> Result<core::Slices, contact_core::Error> {
         self.with_states(stop, |body, grid, states| {
             core::Slices::new(body, self.side, grid, states)

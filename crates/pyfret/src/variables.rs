@@ -17,15 +17,17 @@ use crate::prelude::*;
 pub(crate) struct Variables<'py>(Bound<'py, PyDict>);
 
 impl<'py> Variables<'py> {
+    /// A dict without a variable.
     pub(crate) fn new(py: Python<'py>) -> Self {
         Self(PyDict::new(py))
     }
 
+    /// The dict.
     pub(crate) fn finish(self) -> Bound<'py, PyDict> {
         self.0
     }
 
-    /// One variable with its unit and meaning.
+    /// Adds a variable: dimensions, values, unit and meaning.
     fn put(
         &self,
         name: &str,
@@ -45,7 +47,7 @@ impl<'py> Variables<'py> {
         self.0.set_item(name, (dims, values, attributes))
     }
 
-    /// Coordinates of the cells.
+    /// Adds the coordinates of the cells.
     pub(crate) fn cells(&self, grid: &Grid) -> PyResult<()> {
         for axis in AXES.iter().filter(|axis| axis.dim != "saved") {
             let places: Vec<f64> = if axis.name == "x" {
@@ -59,7 +61,7 @@ impl<'py> Variables<'py> {
         Ok(())
     }
 
-    /// The numbers of one increment, without a dimension.
+    /// Adds the scalars of one increment, without a dimension.
     pub(crate) fn increment(&self, increment: &Increment, grid: &Grid) -> PyResult<()> {
         for scalar in SCALARS.iter().map(|scalar| scalar.for_grid(grid)) {
             let value = ArrayD::from_elem(IxDyn(&[]), (scalar.value)(increment));
@@ -69,7 +71,7 @@ impl<'py> Variables<'py> {
         Ok(())
     }
 
-    /// The points that have yielded.
+    /// Adds the columns of the yielded points.
     fn points(&self, columns: Vec<Vec<f64>>) -> PyResult<()> {
         for (of, values) in YIELDED.iter().zip(columns) {
             let values = self.typed(of.kind, Array1::from_vec(values).into_dyn());
@@ -78,7 +80,7 @@ impl<'py> Variables<'py> {
         Ok(())
     }
 
-    /// The fields of the increment of a number over (x, y).
+    /// Adds the fields of one increment over (x, y).
     pub(crate) fn fields(&self, increment: usize, fields: &Fields) -> PyResult<()> {
         let py = self.0.py();
         if let Some(yielded) = &fields.yielded {
@@ -99,7 +101,7 @@ impl<'py> Variables<'py> {
         Ok(())
     }
 
-    /// The numbers of all increments, and the fields of those that are kept.
+    /// Adds the scalars of all increments, and the fields of those that are kept.
     pub(crate) fn columns(&self, columns: Columns, grid: &Grid) -> PyResult<()> {
         let py = self.0.py();
         self.points(columns.points)?;
@@ -137,7 +139,7 @@ impl<'py> Variables<'py> {
         Ok(())
     }
 
-    /// A variable of a run of wear.
+    /// Adds a variable of a run of wear.
     pub(crate) fn in_memory(&self, of: StoredVariable) -> PyResult<()> {
         let words = |key: &str| of.attributes[key].as_str().unwrap_or_default();
         let dims = of.attributes["_ARRAY_DIMENSIONS"].as_array();
@@ -152,7 +154,7 @@ impl<'py> Variables<'py> {
         self.put(of.name, &dims, values, (words("units"), words("long_name")))
     }
 
-    /// Numbers in the type of their kind, the one that a store has.
+    /// Converts numbers to the type that a store has for their kind.
     fn typed(&self, kind: Kind, values: ArrayD<f64>) -> Bound<'py, PyAny> {
         let py = self.0.py();
         match kind {
@@ -164,7 +166,7 @@ impl<'py> Variables<'py> {
     }
 }
 
-/// Fields over (saved, x, y); each is let go as soon as it is copied.
+/// Stacks fields to an array over (saved, x, y); each is freed as soon as it is copied.
 fn stacked<T: Element + Copy + Default>(
     py: Python<'_>,
     kept: Vec<Array2<T>>,

@@ -32,6 +32,8 @@ const THIRD_BODY: [&str; 2] = ["aerated", "bed"];
 struct Own(Py<PyAny>, Raised, Vec<String>);
 
 impl Law for Own {
+    /// Calls the function with the fields of the cycle and the fields of the third body that it takes; its
+    /// exception is kept in `raised`.
     fn depth(
         &self,
         cycle: &core::CellCycle<'_>,
@@ -80,7 +82,7 @@ impl Law for Own {
     }
 }
 
-/// The functions of both bodies.
+/// Makes laws of the functions of both bodies.
 fn laws(
     given: &[Vec<Py<PyAny>>; 2],
     raised: &Raised,
@@ -103,6 +105,7 @@ fn laws(
 pub(crate) struct Start<'py>(f64, f64, Vec<PyArrayLike2<'py, f64>>, f64);
 
 impl Start<'_> {
+    /// The worn surfaces from their fields.
     fn read(&self) -> WornStart {
         let field = |n: usize| {
             self.2
@@ -164,8 +167,8 @@ pub(crate) fn wear<'py>(
         Ok((run, kept))
     };
     let begun: Result<_, contact_core::Error> = interruptible(py, &stop, run)?;
-    let (mut run, mut kept) = begun.map_err(|e| caused(py, to_python(e), &raised))?;
-    go(py, &mut run, &mut kept, (&stop, &raised), on_jump.as_ref())?;
+    let (mut run, mut kept) = begun.map_err(|e| with_cause(py, to_python(e), &raised))?;
+    run_to_end(py, &mut run, &mut kept, (&stop, &raised), on_jump.as_ref())?;
     let Kept::Memory(columns) = kept else {
         return Ok(None);
     };
@@ -214,13 +217,13 @@ pub(crate) fn resume_wear(
         None => Ok(()),
         Some((mut run, store)) => {
             let mut kept = Kept::Store(Box::new(store));
-            go(py, &mut run, &mut kept, (&stop, &raised), on_jump.as_ref())
+            run_to_end(py, &mut run, &mut kept, (&stop, &raised), on_jump.as_ref())
         }
     }
 }
 
-/// An error with what a law has raised as its cause; an interrupt within a law as it is.
-fn caused(py: Python<'_>, error: PyErr, raised: &Raised) -> PyErr {
+/// An error with the exception of a user's law as its cause. An interrupt within the law is returned itself.
+fn with_cause(py: Python<'_>, error: PyErr, raised: &Raised) -> PyErr {
     let cause = raised.lock().unwrap_or_else(PoisonError::into_inner).take();
     match cause {
         Some(interrupt) if interrupt.is_instance_of::<PyKeyboardInterrupt>(py) => interrupt,
@@ -238,6 +241,7 @@ enum Kept {
 }
 
 impl Kept {
+    /// Writes the jump to the store, or keeps it in memory.
     fn write(&mut self, run: &mut WearRun) -> Result<(), contact_core::Error> {
         match self {
             Self::Store(store) => store.write(run),
@@ -248,6 +252,7 @@ impl Kept {
         }
     }
 
+    /// Writes how the run of a store ended.
     fn finish(&self, run: &WearRun, status: &str) -> Result<(), contact_core::Error> {
         match self {
             Self::Store(store) => store.finish(run, status),
@@ -256,7 +261,9 @@ impl Kept {
     }
 }
 
-fn go(
+/// Advances the run jump by jump to its end, interruptibly; writes each jump, and calls `on_jump` with the
+/// cycles so far.
+fn run_to_end(
     py: Python<'_>,
     run: &mut WearRun,
     kept: &mut Kept,
@@ -277,7 +284,7 @@ fn go(
             }
             Ok(Some(Err(error))) => {
                 let text = error.to_string();
-                let error = caused(py, to_python(error), raised);
+                let error = with_cause(py, to_python(error), raised);
                 let stopped = error.is_instance_of::<PyKeyboardInterrupt>(py);
                 let status = if stopped { "stopped" } else { &text };
                 kept.finish(run, status).map_err(to_python)?;

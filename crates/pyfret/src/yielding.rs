@@ -52,7 +52,7 @@ pub(crate) fn yielded_columns() -> Vec<&'static str> {
     YIELDED.iter().map(|of| of.name).collect()
 }
 
-/// Eigenstress of each state; None where nothing has yielded.
+/// Eigenstress of each state; none where nothing has yielded.
 pub(crate) fn of_states(
     given: Option<List<Option<Py<Eigenstress>>>>,
 ) -> Vec<Option<core::Eigenstress>> {
@@ -74,13 +74,13 @@ pub(crate) struct PlasticBody {
     of: EigenstressSolver,
 }
 
-/// Centres of cells along a side \[m\].
+/// Centres of the cells along a side of the grid \[m\].
 fn centres(cells: usize, length: f64) -> Vec<f64> {
     let middle = 0.5 * (cells as f64 - 1.0);
     (0..cells).map(|i| (i as f64 - middle) * length).collect()
 }
 
-/// The plastic state of columns.
+/// The plastic state from columns.
 fn read(rows: List<List<f64>>) -> PyResult<Yielded> {
     let rows: Vec<Vec<f64>> = rows.into_iter().map(|column| column.0).collect();
     let count = rows.first().map_or(0, Vec::len);
@@ -94,7 +94,7 @@ fn read(rows: List<List<f64>>) -> PyResult<Yielded> {
 }
 
 impl PlasticBody {
-    /// Does `work` with the bodies that yield, on the volume grid of a state.
+    /// Calls `work` with the bodies that yield, on the volume grid of a state.
     fn with_bodies<T: Send>(
         &self,
         py: Python<'_>,
@@ -105,6 +105,7 @@ impl PlasticBody {
         Ok(answer.ok_or_else(|| self.stays_elastic())?)
     }
 
+    /// The error for a body that cannot yield.
     fn stays_elastic(&self) -> PyErr {
         PyValueError::new_err(format!(
             "body{} stays elastic: give its material plastic=Plastic(s_y=..)",

@@ -66,8 +66,8 @@ pub(super) struct Stencil {
 }
 
 impl Prepared {
-    /// The stress where cracks run, in the plane at an azimuth and a distance from the axis of depth,
-    /// sampled from a distance from the mouth on with a step of its logarithm.
+    /// Prepares the stress in the vertical plane at an azimuth and an offset from the axis, in which cracks
+    /// run. Samples start at the distance `nearest` \[m\] from the mouth, and `step` is their step in ln(s).
     pub(super) fn stress_in_plane(
         &self,
         (azimuth, offset): (f64, f64),
@@ -96,7 +96,7 @@ impl Prepared {
 }
 
 impl Along<'_> {
-    /// The stress along a path and along its parts from the mouth on, by the tractions on `cells`.
+    /// Computes the stress of all states along a path, by the tractions on `cells`.
     pub(super) fn sample_path(&mut self, path: &Path, cells: Cells) -> Result<Line, Error> {
         self.sampled(self.parts(path), path, cells)
     }
@@ -127,7 +127,7 @@ impl Along<'_> {
         Ok(changed.minus(line))
     }
 
-    /// Computes the stress of parts at their distances along a path.
+    /// Fills parts of a path with the stress at their samples.
     fn sampled(&mut self, mut parts: Vec<Part>, path: &Path, cells: Cells) -> Result<Line, Error> {
         let keys: Vec<Vec<(Key, f64)>> = parts
             .iter()
@@ -153,7 +153,7 @@ impl Along<'_> {
         Ok(Line { parts })
     }
 
-    /// Computes the stress of each state at places with their depths.
+    /// Computes and keeps the stress of each state at places (key and depth) that are not known yet.
     fn compute(&mut self, places: &[&(Key, f64)], cells: Cells) -> Result<(), Error> {
         unless(&self.contact.stop)?;
         let (sin, cos) = self.azimuth.sin_cos();
@@ -182,7 +182,8 @@ impl Along<'_> {
         &self.contact.body
     }
 
-    /// What a place is known by, and its depth, which rounding does not take out of the layer.
+    /// The key under which the stress at the distance s is kept, and the depth there \[m\], which rounding does
+    /// not take out of the layer.
     fn key(&self, path: &Path, s: f64, layer: usize, cells: Cells) -> (Key, f64) {
         let at = path.at(s);
         let bottoms = self.body().interfaces();
@@ -192,7 +193,7 @@ impl Along<'_> {
         (((at.x.to_bits(), z.to_bits(), layer), cells), z)
     }
 
-    /// The parts of a path.
+    /// Divides a path into parts, each in one leg and one layer.
     fn parts(&self, path: &Path) -> Vec<Part> {
         let bottoms = self.body().interfaces();
         let mut ends = path.ends();
@@ -232,7 +233,7 @@ impl Line {
         first.map_or(0, Vec::len)
     }
 
-    /// The samples around points of a crack.
+    /// For points of a crack, the samples around them with their weights.
     pub(super) fn stencils(&self, points: &[Point]) -> Vec<Stencil> {
         let last = self.parts.len() - 1;
         let around = |point: &Point| {
@@ -263,7 +264,7 @@ impl Line {
         points.iter().map(at).collect()
     }
 
-    /// The distances of the samples of a change, without stress.
+    /// Keeps every [`Part::stride`]th sample, without stress: the samples at which a change is computed.
     fn sparse(&self) -> Vec<Part> {
         let thinned = |part: &Part| Part {
             s: part.s.iter().step_by(part.stride()).copied().collect(),
@@ -273,7 +274,7 @@ impl Line {
         self.parts.iter().map(thinned).collect()
     }
 
-    /// This sparse line minus the samples of a line at the same distances.
+    /// The difference of two lines with the same distances of samples.
     fn minus(mut self, line: &Self) -> Self {
         for (part, other) in self.parts.iter_mut().zip(&line.parts) {
             let others = other.stress.iter().step_by(other.stride());
@@ -288,7 +289,7 @@ impl Line {
 }
 
 impl Part {
-    /// Distance between the samples of a change, in samples.
+    /// The number of samples from one to the next at which a change is computed.
     fn stride(&self) -> usize {
         let steps = self.s.len() - 1;
         if steps.is_multiple_of(SPARSE) && steps >= SPARSE * (SAMPLES - 1) {
@@ -298,7 +299,8 @@ impl Part {
         }
     }
 
-    /// Weights of Lagrange's polynomial in ln(s) through the nearest samples, and the first of them.
+    /// Index of the first of the samples nearest to a distance, and weights of Lagrange's polynomial in ln(s)
+    /// through them.
     fn weights(&self, at: f64) -> (usize, [f64; SAMPLES]) {
         let last = self.s.len() - 1;
         let ratio = (self.s[last] / self.s[0]).ln() / last as f64;

@@ -5,7 +5,7 @@ use fracture::{Crack, Direction, End, Growing, Path, PlaneStress, Point, grow};
 use rayon::prelude::*;
 
 use super::along::{Line, STEP};
-use super::intensity::{NEAREST, OverCycle, QUADRATURE, Stressed, on_line, refused};
+use super::intensity::{NEAREST, OverCycle, QUADRATURE, Stressed, on_line, to_core_error};
 use super::prepared::{Cells, Prepared};
 
 /// How a crack grows.
@@ -42,18 +42,21 @@ pub struct Grown {
 struct Refused(Error);
 
 impl From<Error> for Refused {
+    /// Wraps an error of the core.
     fn from(error: Error) -> Self {
         Self(error)
     }
 }
 
 impl From<fracture::Error> for Refused {
+    /// Wraps an error of fracture as one of the core.
     fn from(error: fracture::Error) -> Self {
-        Self(refused(error))
+        Self(to_core_error(error))
     }
 }
 
-/// Grows a crack below a contact in the direction of the largest range over the states.
+/// Grows a crack below a contact, in steps, in the direction of the largest range of the opening stress over
+/// the states.
 pub fn grown(contact: &Prepared, growth: &Growth) -> Result<Grown, Error> {
     let start = growth.start;
     if !(start > 0.0 && start.is_finite()) {
@@ -76,7 +79,8 @@ pub fn grown(contact: &Prepared, growth: &Growth) -> Result<Grown, Error> {
         grow(&first, &growth.growing, &contact.breaks, stress).map_err(|Refused(error)| error)?;
     let stressed = Stressed::new(&mut along, &found.path, None)?;
     let of = |tip: &fracture::Tip| {
-        let crack = Crack::with_step(found.path.up_to(tip.at.s), QUADRATURE).map_err(refused)?;
+        let crack =
+            Crack::with_step(found.path.up_to(tip.at.s), QUADRATURE).map_err(to_core_error)?;
         let crack = crack.with_interfaces(&contact.breaks);
         on_line(&contact.body, &stressed, &crack, growth.growing.friction)
     };
@@ -93,7 +97,7 @@ pub fn grown(contact: &Prepared, growth: &Growth) -> Result<Grown, Error> {
     })
 }
 
-/// The direction called by its name.
+/// The rule of direction with this name; the error lists the names.
 pub fn direction_named(name: &str) -> Result<Direction, Error> {
     match name {
         "tangential_stress" => Ok(Direction::TangentialStress),

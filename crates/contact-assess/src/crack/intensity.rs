@@ -18,8 +18,8 @@ pub(super) const QUADRATURE: f64 = 0.12;
 /// table of partial cracks in a film (|alpha| to 0.8), rounded up.
 const LAYERED: f64 = 1.2;
 
-/// The corresponding error of the core.
-pub fn refused(error: fracture::Error) -> Error {
+/// Converts an error of the crate fracture to an error of the core.
+pub fn to_core_error(error: fracture::Error) -> Error {
     match error {
         fracture::Error::Invalid {
             key,
@@ -54,7 +54,8 @@ pub(super) struct Stressed {
 }
 
 impl Stressed {
-    /// The stress along a path, whose mouth may be off by a distance to both sides \[m\].
+    /// Samples the stress along a path, and its changes by coarser cells and by a mouth that is off by
+    /// `mouth_error` \[m\] to either side.
     pub(super) fn new(
         along: &mut Along<'_>,
         path: &Path,
@@ -75,7 +76,7 @@ impl Stressed {
     }
 }
 
-/// A crack under the stress along its line.
+/// Computes K of a crack over the states, under the stress along its line, with its errors.
 pub(super) fn on_line(
     body: &Body,
     stressed: &Stressed,
@@ -95,12 +96,12 @@ pub(super) fn on_line(
         let mut largest = 0.0_f64;
         for (line, stencils) in lines.iter().zip(stencils) {
             let change = crack.intensity(&line.stress(state, stencils));
-            let change = change.map_err(refused)?;
+            let change = change.map_err(to_core_error)?;
             largest = largest.max(change.K_I.hypot(change.K_II));
         }
         Ok(largest)
     };
-    let mut faces = Faces::new(crack, friction).map_err(refused)?;
+    let mut faces = Faces::new(crack, friction).map_err(to_core_error)?;
     let mut over = OverCycle {
         faces: Vec::new(),
         linear: Vec::new(),
@@ -108,21 +109,21 @@ pub(super) fn on_line(
     };
     for state in 0..line.states() {
         let stress = line.stress(state, &stencils);
-        let mut linear = crack.intensity(&stress).map_err(refused)?;
+        let mut linear = crack.intensity(&stress).map_err(to_core_error)?;
         linear.error += largest(&stressed.by_cells, &of_cells, state)?;
         linear.error += (layers + SAMPLES) * linear.K_I.hypot(linear.K_II);
-        faces = faces.next(&stress).map_err(refused)?;
+        faces = faces.next(&stress).map_err(to_core_error)?;
         let mut k = faces.intensity;
         k.error = k.error.max(linear.error) + largest(&stressed.by_mouth, &of_mouth, state)?;
-        over.open.push(faces.open_share().map_err(refused)?);
+        over.open.push(faces.open_share().map_err(to_core_error)?);
         over.faces.push(k);
         over.linear.push(linear);
     }
     Ok(over)
 }
 
-/// The largest range of K_I over the states, of cracks along a line: with faces that may pass
-/// through each other, or with faces that touch.
+/// The largest range of K_I over the states, of cracks along a line. With a coefficient of `friction`, faces
+/// touch; without one they may pass through each other.
 pub(super) fn range_on_line(
     line: &Line,
     crack: &Crack,
@@ -132,23 +133,27 @@ pub(super) fn range_on_line(
     let mut faces = friction
         .map(|friction| Faces::new(crack, friction))
         .transpose()
-        .map_err(refused)?;
+        .map_err(to_core_error)?;
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for state in 0..line.states() {
         let stress = line.stress(state, &stencils);
         let K_I = if let Some(touching) = &mut faces {
-            *touching = touching.next(&stress).map_err(refused)?;
+            *touching = touching.next(&stress).map_err(to_core_error)?;
             touching.intensity.K_I
         } else {
-            crack.intensity(&stress).map_err(refused)?.K_I.max(0.0)
+            crack
+                .intensity(&stress)
+                .map_err(to_core_error)?
+                .K_I
+                .max(0.0)
         };
         (low, high) = (low.min(K_I), high.max(K_I));
     }
     Ok((high - low).max(0.0))
 }
 
-/// Relative error of K in the homogeneous half-plane where the materials of the layers differ: with
-/// the largest Dundurs' alpha of an interface and the depth of the tip over the interface's.
+/// Relative error of K since it holds for a homogeneous half-plane: from the largest Dundurs' alpha of an
+/// interface, and the depth of the tip over the depth of the interface.
 fn layered(body: &Body, depth: f64) -> f64 {
     let modulus = |m: contact_core::scene::Elastic| m.E / (1.0 - m.nu * m.nu);
     let below = body.coatings.iter().skip(1).map(|c| c.material);

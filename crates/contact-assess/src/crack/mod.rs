@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use self::along::STEP;
 pub use self::grown::{Grown, Growth, direction_named, grown};
 use self::intensity::{NEAREST, QUADRATURE, Stressed, on_line, range_on_line};
-pub use self::intensity::{OverCycle, refused};
+pub use self::intensity::{OverCycle, to_core_error};
 use self::prepared::Cells;
 pub use self::prepared::Prepared;
 use contact_core::Error;
@@ -40,7 +40,7 @@ pub struct Cracks {
 }
 
 impl Cracks {
-    /// The longest of the cracks.
+    /// The path of the longest of the cracks.
     fn path(&self, longest: f64) -> Path {
         match self.kink {
             Some((first, angle)) if first < longest => {
@@ -51,8 +51,8 @@ impl Cracks {
         }
     }
 
-    /// The shortest and the longest length; fails at lengths that no crack has.
-    fn checked(&self) -> Result<[f64; 2], Error> {
+    /// The shortest and the longest length \[m\]; fails at lengths that no crack has.
+    fn check_lengths(&self) -> Result<[f64; 2], Error> {
         let longest = self.lengths.iter().copied().fold(0.0, f64::max);
         let shortest = self.lengths.iter().copied().fold(f64::INFINITY, f64::min);
         if self.lengths.is_empty() || !(shortest > 0.0 && longest.is_finite()) {
@@ -69,8 +69,8 @@ impl Cracks {
     }
 }
 
-/// K of the cracks below a contact under each of its states, one length after the other. The place of
-/// the mouth may be off by the distance `mouth_error` \[m\]: the change of K by it is part of the error.
+/// Computes K of the cracks below a contact under each of its states, one length after the other. If the place
+/// of the mouth is off by `mouth_error` \[m\], the change of K by it is part of the error.
 ///
 /// K belongs to a crack in a homogeneous half-plane under the stress of the layered body. Where
 /// layers differ, the error includes the change of K of published partial cracks in films.
@@ -79,11 +79,11 @@ pub fn over_cycle(
     cracks: &Cracks,
     mouth_error: Option<f64>,
 ) -> Result<Vec<OverCycle>, Error> {
-    let [shortest, longest] = cracks.checked()?;
+    let [shortest, longest] = cracks.check_lengths()?;
     let path = cracks.path(longest);
     // Straight ones are alike.
     let unit = Path::straight(cracks.x, longest, cracks.angle);
-    let unit = Crack::with_step(unit, QUADRATURE).map_err(refused)?;
+    let unit = Crack::with_step(unit, QUADRATURE).map_err(to_core_error)?;
     let mut along =
         contact.stress_in_plane((cracks.azimuth, cracks.offset), NEAREST * shortest, STEP)?;
     let stressed = Stressed::new(&mut along, &path, mouth_error)?;
@@ -94,7 +94,9 @@ pub fn over_cycle(
         } else {
             unit.similar(cracks.x, *length)
         };
-        let crack = crack.map_err(refused)?.with_interfaces(&contact.breaks);
+        let crack = crack
+            .map_err(to_core_error)?
+            .with_interfaces(&contact.breaks);
         on_line(&contact.body, &stressed, &crack, cracks.friction)
     };
     cracks.lengths.par_iter().map(at_length).collect()
@@ -131,16 +133,17 @@ pub fn widest_range(contact: &Prepared, cracks: &[Cracks]) -> Result<usize, Erro
     Ok(widest.0)
 }
 
-/// The largest range of K_I over the states, at any length.
+/// The largest range of K_I over the states, at any of the lengths, by the tractions on `cells`; `touch` if
+/// faces touch.
 fn range_of(contact: &Prepared, cracks: &Cracks, cells: Cells, touch: bool) -> Result<f64, Error> {
-    let [shortest, longest] = cracks.checked()?;
+    let [shortest, longest] = cracks.check_lengths()?;
     let path = cracks.path(longest);
-    let unit = Crack::with_step(path.clone(), QUADRATURE).map_err(refused)?;
+    let unit = Crack::with_step(path.clone(), QUADRATURE).map_err(to_core_error)?;
     let plane = (cracks.azimuth, cracks.offset);
     let mut along = contact.stress_in_plane(plane, NEAREST * shortest, COMPARED_STEP)?;
     let line = along.sample_path(&path, cells)?;
     let at_length = |length: &f64| {
-        let crack = unit.similar(cracks.x, *length).map_err(refused)?;
+        let crack = unit.similar(cracks.x, *length).map_err(to_core_error)?;
         let crack = crack.with_interfaces(&contact.breaks);
         range_on_line(&line, &crack, touch.then_some(cracks.friction))
     };

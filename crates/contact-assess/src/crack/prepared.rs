@@ -57,12 +57,12 @@ impl Prepared {
         }
     }
 
-    /// Whether no interruption has ended a computation with it.
+    /// Whether it can still be used: no interruption has ended a computation with it.
     pub fn is_usable(&self) -> bool {
         !self.stop.load(Ordering::Relaxed)
     }
 
-    /// Points under the states, by the tractions on `cells`.
+    /// The body under the states, by the tractions on `cells`; made at its first use.
     pub(super) fn points(&self, cells: Cells) -> Result<Arc<PointsOnGrid>, Error> {
         let mut points = self.points.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(points) = points.get(&cells) {

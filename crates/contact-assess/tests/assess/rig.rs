@@ -215,7 +215,7 @@ fn below_a_coating() {
     let yields = YieldJudge {
         s_y: vec![None, Some(9e8)],
         residual: ResidualStress::default(),
-        factor: |found| found.von_mises,
+        safety_factor: |found| found.von_mises,
     };
     let judged = section(&site, &yields);
     let least = find_worst_point(&site, &judged, &yields, 1)

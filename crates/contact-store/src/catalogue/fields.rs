@@ -4,6 +4,7 @@ use contact_core::march::Fields;
 
 use super::{Field, FieldView, Kind};
 
+/// A field of numbers over the cells.
 const fn real_field(
     name: &'static str,
     units: &'static str,
@@ -19,6 +20,7 @@ const fn real_field(
     }
 }
 
+/// A field of true and false over the cells.
 const fn mask(
     name: &'static str,
     long_name: &'static str,

@@ -4,6 +4,7 @@ use contact_core::march::Increment;
 
 use super::{Kind, Scalar};
 
+/// A number per increment.
 const fn real(
     name: &'static str,
     units: &'static str,
@@ -19,6 +20,7 @@ const fn real(
     }
 }
 
+/// A whole number per increment.
 const fn count(
     name: &'static str,
     long_name: &'static str,

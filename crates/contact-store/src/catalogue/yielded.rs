@@ -22,6 +22,7 @@ pub struct PointVariable {
     pub value: fn(usize, usize, &PlasticPoint) -> f64,
 }
 
+/// A whole number per yielded point, from its body, its increment and the point.
 const fn count(
     name: &'static str,
     long_name: &'static str,
@@ -36,6 +37,7 @@ const fn count(
     }
 }
 
+/// A strain per yielded point.
 const fn strain(
     name: &'static str,
     long_name: &'static str,
@@ -50,6 +52,7 @@ const fn strain(
     }
 }
 
+/// A back stress per yielded point \[Pa\].
 const fn back_stress(
     name: &'static str,
     long_name: &'static str,
@@ -145,7 +148,7 @@ fn back_stress_sum(point: &PlasticPoint, component: usize) -> f64 {
     point.back.iter().map(|back| back[component]).sum()
 }
 
-/// Rows of an increment: a column for each of [`YIELDED`].
+/// Columns of the yielded points of an increment, one for each of [`YIELDED`].
 pub fn to_rows(increment: usize, yielded: &Yielded) -> Vec<Vec<f64>> {
     let column = |variable: &PointVariable| {
         let bodies = yielded.bodies.iter();
@@ -160,8 +163,8 @@ pub fn to_rows(increment: usize, yielded: &Yielded) -> Vec<Vec<f64>> {
     YIELDED.iter().map(column).collect()
 }
 
-/// Restores the plastic state from rows that [`to_rows`] has made. The first back stress is the sum
-/// of the stored ones, so that the yield surface stays in place.
+/// Restores the plastic state from the columns that [`to_rows`] made. The first back stress is the sum of the
+/// stored ones, so that the yield surface stays in place.
 pub fn from_rows(rows: &[Vec<f64>]) -> Yielded {
     let mut yielded = Yielded::default();
     let count = rows.first().map_or(0, Vec::len);

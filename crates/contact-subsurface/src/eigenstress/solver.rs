@@ -30,7 +30,7 @@ impl EigenstressSolver {
         }
     }
 
-    /// The number of the body.
+    /// Number of the body, 1 or 2.
     fn number(&self) -> usize {
         match self.side {
             Side::Body1 => 1,

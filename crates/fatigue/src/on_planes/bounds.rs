@@ -14,8 +14,10 @@ use crate::shear_bound::BestPlaneBound;
 const NOTHING: f64 = 1e-12;
 
 impl OnPlanes<'_> {
-    /// Returns the plane of histories that need no search: no tension where the criterion requires
-    /// it, or a stress that changes hydrostatically only, so that no plane is sheared.
+    /// The plane of histories that need no search: no tension where the criterion requires it, or a stress that
+    /// changes hydrostatically only, so that no plane is sheared. None if a search is needed.
+    ///
+    /// The normal is NaN where the value is 0 on all planes.
     ///
     /// The normal is NaN where the value is 0 on all planes.
     pub(crate) fn without_search(&mut self) -> Option<Peak> {

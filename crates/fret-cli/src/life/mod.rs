@@ -45,7 +45,7 @@ pub(crate) fn life(options: &Options) -> Result<(), Failure> {
 const AT_RIM: &str = "the worst point is at the rim of the contact: a point value depends on the grid, use a critical \
                       distance (--distance)";
 
-/// Returns the text to print; notes go to the standard error.
+/// Assesses a result and returns the lines to print; notes go to the standard error.
 fn life_lines(options: &Options) -> Result<Vec<String>, Error> {
     table::check(options)?;
     let store = Store::open_to_read(&options.store)?;
@@ -170,7 +170,7 @@ fn write_table(
     table::write(out, &judging.options.criterion, rows, judges)
 }
 
-/// Materials by their names, from the surface down.
+/// Materials of the layers by the names in the options, from the surface down; none for a layer without.
 fn given_materials(options: &Options) -> Result<Vec<Option<Material>>, Error> {
     let mut table = materials();
     let mut names = options.material.clone();

@@ -77,7 +77,7 @@ impl LayerAssessor<'_> {
         Ok(layers.iter().map(row).collect())
     }
 
-    /// Returns the line of the mean over the distance of the options.
+    /// The line of the largest mean over the critical distance `length` \[m\].
     pub(super) fn row_of_mean(
         &self,
         sections: &[&Judged<PointResult>],
@@ -93,7 +93,8 @@ impl LayerAssessor<'_> {
         Ok(layer_found.mean_row(&mean, line, self.options, length))
     }
 
-    /// The layer that the distance of the options lies in.
+    /// The layer in which the critical distance is measured: the one of `--layer`, else the outermost with a
+    /// material.
     fn averaged_layer(&self, judge: &CriterionJudge) -> Result<usize, Error> {
         let outermost = judge.assessments.iter().position(Option::is_some);
         let layer = self.options.layer.or(outermost).unwrap_or_default();
@@ -220,6 +221,7 @@ impl LayerAssessor<'_> {
 }
 
 impl Layer<'_> {
+    /// "life" or "safety factor".
     fn margin_name(&self) -> &'static str {
         if self.of.gives_lives() {
             "life"
@@ -295,7 +297,7 @@ impl Layer<'_> {
         }
     }
 
-    /// The range and the largest mean.
+    /// The line of the largest mean over `length` \[m\] along a line: margin, range, place.
     fn mean_row(&self, mean: &LargestMean, along: Line, options: &Options, length: f64) -> Row {
         let (criterion, unit) = (self.of.criterion.name(), self.of.criterion.unit());
         let axis = along.name();
@@ -345,7 +347,7 @@ impl Layer<'_> {
         )
     }
 
-    /// The range as numbers.
+    /// The range of 10 to 90 % as JSON.
     fn range_to_json(&self) -> Value {
         let Range { low, best, high } = self.range.range.range;
         let three = |range: Range| [range.low, range.best, range.high].map(number);

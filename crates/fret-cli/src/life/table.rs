@@ -9,6 +9,7 @@ use fatigue::{Assessment, PointResult};
 
 use super::options::Options;
 
+/// Fails unless the table that is asked for is a .csv file.
 pub(super) fn check(options: &Options) -> Result<(), Error> {
     let Some(out) = &options.out else {
         return Ok(());

@@ -22,7 +22,8 @@ pub(super) struct AssessedBody {
 }
 
 impl AssessedBody {
-    /// Does `work` at the site while signals are heard; without residual stress if the judge has it.
+    /// Does `work` at the site in a thread that can be interrupted; without residual stress if the judge takes
+    /// it by itself (`residual` false).
     pub(super) fn with_site<T: Send>(
         &self,
         py: Python<'_>,
@@ -46,7 +47,7 @@ impl AssessedBody {
     }
 }
 
-/// Place and errors of a worst point.
+/// The place of a worst point and its errors, as a dict.
 pub(super) fn place<'py, F>(
     py: Python<'py>,
     worst: &core::WorstPoint<F>,
@@ -63,6 +64,7 @@ pub(super) fn place<'py, F>(
     Ok(fields)
 }
 
+/// The depths of judged samples and their layers.
 pub(super) fn depths_of<F>(judged: &Judged<F>) -> (Vec<f64>, Vec<usize>) {
     judged.depths.iter().map(|d: &Depth| (d.z, d.layer)).unzip()
 }

@@ -89,12 +89,14 @@ attributes!(CriterionBelow, self:
 /// A range: low, best, high.
 type Three = (f64, f64, f64);
 
+/// Low, best and high value.
 fn three(of: Range) -> Three {
     (of.low, of.best, of.high)
 }
 
 impl CriterionBelow {
-    /// The largest mean over a distance; the inner error if the distance is refused.
+    /// The largest mean over a distance, None if it fits nowhere on the grid. The inner error is the reason if
+    /// the distance is refused.
     fn largest(
         &self,
         py: Python<'_>,
@@ -226,7 +228,7 @@ pub(crate) fn notes_on_materials(
     Ok(judge.notes_on_materials(&layers)?)
 }
 
-/// Domain of an average, by its name.
+/// The region of an average, by its name.
 pub(super) fn averaging(method: &str) -> PyResult<Averaging> {
     let row = Averaging::ALL.iter().find(|(name, _)| *name == method);
     row.map(|(_, method)| *method).ok_or_else(|| {
@@ -235,7 +237,8 @@ pub(super) fn averaging(method: &str) -> PyResult<Averaging> {
     })
 }
 
-/// Arrays over (rows, places) of what a criterion found, NaN where nothing was judged.
+/// Arrays over (rows, places) of the judgements, NaN where nothing was judged. `assessment` returns the one of
+/// a row.
 pub(super) fn arrays<'py, 'a>(
     py: Python<'py>,
     rows: &[Option<Vec<Option<PointResult>>>],

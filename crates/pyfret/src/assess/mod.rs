@@ -155,7 +155,7 @@ impl CycleSection {
         let judge = YieldJudge {
             s_y: s_y.0,
             residual: self.below.residual.clone(),
-            factor: |found| found.von_mises,
+            safety_factor: |found| found.von_mises,
         };
         let judged = self.below.with_site(py, false, |site| {
             core::judge(site, self.below.line, &depths, std::slice::from_ref(&judge))
@@ -203,6 +203,7 @@ impl CycleSection {
     }
 }
 
+/// The criterion for the materials of the layers, with the `tolerance` of its search.
 fn criterion_of(
     below: &AssessedBody,
     materials: &[Option<Material>],
@@ -226,6 +227,7 @@ fn criterion_of(
     )?)
 }
 
+/// The judgement of a single judge.
 fn only<F>(judged: Vec<Judged<F>>) -> Answer<Judged<F>> {
     let mut judged = judged.into_iter();
     judged

@@ -24,6 +24,7 @@ pub(super) struct PythonCycle {
 }
 
 impl PythonCycle {
+    /// A cycle of `count` moments that the function `fetch` returns.
     pub(super) fn new(fetch: Py<PyAny>, count: usize, grid: &Grid) -> Self {
         Self {
             fetch,
@@ -50,6 +51,7 @@ impl PythonCycle {
         self.raised.lock().ok().and_then(|mut raised| raised.take())
     }
 
+    /// Calls Python for moments; its exception is kept, and ends the work.
     fn take_moments(&self, which: Option<&[usize]>) -> Result<Option<Moments>, Error> {
         Python::attach(|py| self.fetch_moments(py, which)).map_err(|error| {
             if let Ok(mut raised) = self.raised.lock() {
@@ -59,6 +61,7 @@ impl PythonCycle {
         })
     }
 
+    /// Calls the function of Python: with numbers of moments, or with None for the moment before the cycle.
     fn fetch_moments(&self, py: Python<'_>, which: Option<&[usize]>) -> PyResult<Option<Moments>> {
         let states = self.fetch.call1(py, (which.map(<[usize]>::to_vec),))?;
         if states.is_none(py) {
@@ -74,6 +77,7 @@ impl CycleSource for PythonCycle {
         self.count
     }
 
+    /// The moments with these numbers, from Python.
     fn moments(&self, which: &[usize]) -> Result<Moments, Error> {
         let allowed = "the moments asked for";
         self.take_moments(Some(which))?
@@ -89,6 +93,7 @@ impl CycleSource for PythonCycle {
         self.path_error
     }
 
+    /// Plastic work in the cycle and beside it; none if the body stays elastic.
     fn yielding(&self) -> Result<Option<Yielding>, Error> {
         let to_yielding = |(plastic, beside)| Yielding { plastic, beside };
         Ok(self.yielding.map(to_yielding))

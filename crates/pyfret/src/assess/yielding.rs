@@ -49,7 +49,7 @@ impl YieldBelow {
             refuse!("{factor:?}: must be one of {names}");
         };
         let judge = YieldJudge {
-            factor: *factor,
+            safety_factor: *factor,
             ..self.of.clone()
         };
         if !judge.judges(layer) {

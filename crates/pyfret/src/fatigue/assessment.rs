@@ -67,9 +67,10 @@ impl Assessment {
         Some([of.E, coefficient, exponent, of.ductility, of.exponent])
     }
 
-    /// Low, best and high margin of a value with an error, and their range of 10 to 90 %.
+    /// Return the margins of a value with its error (low, best, high) and their range of 10 to 90 %.
     ///
-    /// The range has the scatter of the material; `scatter` takes the place of its default.
+    /// The range has the scatter of the material; `scatter` replaces its default. The other parts are the
+    /// ratio of this scatter, and notes.
     #[pyo3(signature = (value: "float", error: "float", material = None, *, scatter: "float | None" = None) -> "tuple[tuple[float, float, float], tuple[float, float, float], float, list[str]]")]
     #[expect(clippy::type_complexity, reason = "the parts of a range")]
     fn range_at(
@@ -81,7 +82,7 @@ impl Assessment {
     ) -> Answer<((f64, f64, f64), (f64, f64, f64), f64, Vec<String>)> {
         let material = material.as_ref().map(|material| &material.0);
         let (factor, note) = self.0.scatter(material, scatter)?;
-        let blind = self.0.mean_stress_note(material);
+        let mean_stress_note = self.0.mean_stress_note(material);
         let number = self
             .0
             .life_range(self.0.margins(value, error), factor, None);
@@ -90,7 +91,7 @@ impl Assessment {
             three(number.stress),
             three(number.range),
             factor,
-            blind.into_iter().chain(note).collect(),
+            mean_stress_note.into_iter().chain(note).collect(),
         ))
     }
 

@@ -27,7 +27,7 @@ const MATERIAL: &str = "material";
 #[derive(Clone, PartialEq)]
 pub(crate) struct Criterion(pub(super) core::Criterion);
 
-/// A static method of the class for every criterion of the core: `Criterion.findley(k=0.3)`.
+/// Adds a static method to the class for each criterion of the core: `Criterion.findley(k=0.3)`.
 pub(crate) fn add_criteria(py: Python<'_>) -> PyResult<()> {
     let class = py.get_type::<Criterion>();
     let text = |text: String| {

@@ -7,7 +7,7 @@ use super::Assessment;
 use crate::error::Answer;
 use crate::prelude::*;
 
-/// The curve of damage: an assessment with its law below the knee.
+/// Builds the damage curve of an assessment; `below` is the rule below the knee.
 fn damage_curve(
     assessment: &Assessment,
     below: &str,

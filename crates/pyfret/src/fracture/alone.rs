@@ -9,7 +9,7 @@ use crate::error::Answer;
 use crate::hints::Numbers;
 use crate::prelude::*;
 
-/// Stress in the plane over (time, points) from all of its components.
+/// Takes the components in the plane of the crack from a stress over (time, points, 6).
 fn history(stress: Array<'_, Ix3>, points: usize) -> PyResult<Vec<Vec<of_cracks::PlaneStress>>> {
     let stress = stress.as_array();
     let (_, found, components) = stress.dim();

@@ -15,7 +15,7 @@ use crate::residual_stress::{Profiles, of_body};
 use crate::scene::Body;
 use crate::states::States;
 
-/// K over (state, length), as named arrays.
+/// K over (state, length) as a dict of arrays.
 fn tables<'py>(py: Python<'py>, found: &[core::OverCycle]) -> PyResult<Bound<'py, PyDict>> {
     let states = found.first().map_or(0, |over| over.faces.len());
     let table = |f: &dyn Fn(&core::OverCycle, usize) -> f64| {
@@ -44,7 +44,7 @@ pub(crate) struct ContactForCracks {
 }
 
 impl ContactForCracks {
-    /// Calls `f` with the prepared contact; one whose computation was interrupted is prepared again.
+    /// Calls `f` with the prepared contact; it is prepared again if an interrupt had ended its computation.
     fn with_prepared<T: Send>(
         &self,
         py: Python<'_>,

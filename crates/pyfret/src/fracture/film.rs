@@ -16,7 +16,7 @@ pub(crate) fn ellipse_factor(#[pyo3(from_py_with = number)] aspect: f64) -> Answ
     Ok(of_cracks::ellipse_factor(aspect)?)
 }
 
-/// A film on another material: materials of both.
+/// The film of the material `film` on the material `below`.
 fn film(film: Elastic, below: Elastic) -> Answer<of_cracks::Film> {
     let pair = |m: Elastic| (m.0.E, m.0.nu);
     Ok(of_cracks::Film::from_moduli(pair(film), pair(below))?)

@@ -5,7 +5,7 @@ use ::fracture as of_cracks;
 use crate::error::Answer;
 use crate::prelude::*;
 
-/// A curve of K over lengths [m] from the largest and smallest K_I of the cycle [Pa m^0.5].
+/// The curve of K over lengths \[m\], from the largest and smallest K_I of the cycle \[Pa m^0.5\].
 fn curve(lengths: List<f64>, K_max: List<f64>, K_min: List<f64>) -> Answer<of_cracks::Curve> {
     if K_max.len() != K_min.len() {
         refuse!("K_max and K_min: must be of the same length");
@@ -18,6 +18,8 @@ fn curve(lengths: List<f64>, K_max: List<f64>, K_min: List<f64>) -> Answer<of_cr
 /// Threshold as its numbers: dK_th, dS_0, Y, Walker's exponent, table of R.
 type Numbers = (f64, Option<f64>, f64, Option<f64>, Option<Vec<(f64, f64)>>);
 
+/// The threshold of growth from its numbers: range of K, limit of the stress range, geometry factor, and
+/// Walker's exponent or a table for the load ratio.
 fn threshold((dK_th, dS_0, Y, walker, table): Numbers) -> Answer<of_cracks::Threshold> {
     let ratio = match (walker, table) {
         (None, None) => of_cracks::LoadRatio::None,

@@ -5,7 +5,7 @@ use ndarray::Array1;
 
 use crate::prelude::*;
 
-/// Why a crack ends, in a word.
+/// The word for the reason why a crack ends.
 pub(super) fn named(end: of_cracks::End) -> &'static str {
     match end {
         of_cracks::End::Reached => "reached",
@@ -15,7 +15,7 @@ pub(super) fn named(end: of_cracks::End) -> &'static str {
     }
 }
 
-/// Adds the tips on the way: length, x and depth [m], angle [rad].
+/// Adds the tips on the way to a result: length, x and depth \[m\], angle \[rad\].
 pub(super) fn set_path(
     py: Python<'_>,
     result: &Bound<'_, PyDict>,

@@ -164,13 +164,14 @@ attributes!(CattaneoMindlin, self:
 );
 
 impl CattaneoMindlin {
-    /// A tangential force that friction carries.
+    /// Checks that friction carries the force T \[N\]; `key` names it in the error.
     fn force(&self, key: &str, T: f64) -> Result<f64, Error> {
         // Rounding of mu W is no reason to refuse the force at which sliding begins.
         let limit = self.slip.T_limit() * (1.0 + 1e-9);
         between(key, T, (-limit, limit))
     }
 
+    /// Checks named forces \[N\].
     fn check(&self, forces: &[(&str, f64)]) -> Answer<()> {
         let mut forces = forces.iter();
         let checked = forces.try_for_each(|(key, T)| self.force(key, *T).map(drop));

@@ -82,7 +82,7 @@ attributes!(Hertz, self:
 );
 
 impl Hertz {
-    /// The relative radius that the contact has, R = a^2/delta_z.
+    /// The relative radius that the contact has, a^2/delta_z.
     pub(super) fn curved(&self) -> Curved {
         Curved::Sphere(self.0.a * self.0.a / self.0.delta_z)
     }

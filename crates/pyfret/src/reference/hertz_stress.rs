@@ -79,7 +79,7 @@ attributes!(HertzStress, self:
 );
 
 impl HertzStress {
-    /// Places in the body in their common shape, not so far away that the stress is lost in rounding.
+    /// Broadcasts x, y, z; fails outside the body, and so far away that rounding would hide the stress.
     fn places(
         &self,
         x: &Numbers<'_>,

@@ -31,7 +31,7 @@ pub(crate) fn goodman_stick_ratio(
     Ok(core::goodman_stick_ratio(beta, mu))
 }
 
-/// Dundurs' parameter of a pair, and a coefficient of friction.
+/// Checks Dundurs' parameter and the coefficient of friction.
 fn check(beta: f64, mu: f64) -> Answer<()> {
     let beta = between("beta", beta, (-0.5, 0.5));
     Ok(beta.and(positive("mu", mu)).map(drop)?)

@@ -91,7 +91,7 @@ attributes!(Lubkin, self:
 );
 
 impl Lubkin {
-    /// A stick radius in the contact.
+    /// Checks that c \[m\] is the radius of a stick zone in the contact.
     fn radius(&self, c: f64) -> Result<f64, Error> {
         between("c", c, (0.0, self.torsion.hertz.a))
     }

@@ -37,12 +37,12 @@ type Numbers<'py> = Array<'py, IxDyn>;
 /// Numbers in the shape of those that came in.
 type Values<'py> = hints::Numbers<'py>;
 
-/// `f` of every number.
+/// Applies `f` to every number.
 fn map<'py>(x: &Numbers<'py>, f: impl Fn(f64) -> f64) -> Values<'py> {
     x.as_array().mapv(f).to_pyarray(x.py()).into()
 }
 
-/// Maps places, each number checked first.
+/// Applies `f` to every number, after `check`.
 fn map_checked<'py>(
     x: &Numbers<'py>,
     check: impl Fn(f64) -> Result<f64, Error>,
@@ -52,14 +52,14 @@ fn map_checked<'py>(
     Ok(map(x, f))
 }
 
-/// Fails at the first number that `check` refuses; what is not a number passes.
+/// Fails at the first number that `check` refuses; NaN passes.
 fn checked(x: &Numbers<'_>, check: impl Fn(f64) -> Result<f64, Error>) -> Answer<()> {
     let array = x.as_array();
     let mut numbers = array.iter().filter(|x| !x.is_nan());
     Ok(numbers.try_for_each(|x| check(*x).map(drop))?)
 }
 
-/// Places in their common shape, as numpy puts arrays together.
+/// Broadcasts arrays to their common shape, as numpy does; the names are for the error.
 fn together<const N: usize>(places: [(&str, &Numbers<'_>); N]) -> Answer<[ArrayD<f64>; N]> {
     let rank = places.iter().map(|(_, of)| of.as_array().ndim()).max();
     let mut shape = vec![1; rank.unwrap_or(0)];
@@ -86,7 +86,7 @@ fn together<const N: usize>(places: [(&str, &Numbers<'_>); N]) -> Answer<[ArrayD
     Ok(arrays.try_into().expect("one for each place"))
 }
 
-/// The components of a stress at places, an array for each.
+/// Splits stresses into an array for each component.
 fn rows<'py, const N: usize>(
     py: Python<'py>,
     stress: &ArrayD<[f64; N]>,
@@ -104,8 +104,8 @@ enum Curved {
     Cylinder(f64),
 }
 
-/// The materials of a pair of a relative radius, checked. Bodies whose surfaces are curved otherwise are
-/// refused; a flat body and a material alone take any radius.
+/// Takes the materials of two bodies, whose surfaces must have the relative curvature `curved`. A flat body and
+/// a material alone fit any.
 fn pair_of(curved: Curved, bodies: (Material, Material)) -> Answer<(core::Elastic, core::Elastic)> {
     let [xx, xy, yy]: [f64; 3] = std::array::from_fn(|i| bodies.0.1[i] + bodies.1.1[i]);
     let (mean, half) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
@@ -134,7 +134,7 @@ fn pair_of(curved: Curved, bodies: (Material, Material)) -> Answer<(core::Elasti
     pair(bodies)
 }
 
-/// The materials of a pair, checked.
+/// Takes two materials; fails if both are rigid.
 fn pair((body1, body2): (Material, Material)) -> Answer<(core::Elastic, core::Elastic)> {
     Ok(domain::pair((body1.0, body2.0))?)
 }

@@ -132,14 +132,14 @@ attributes!(LineContact, self:
 );
 
 impl LineContact {
-    /// A tangential force that friction carries; rounding is no reason to refuse the largest.
+    /// Checks that friction carries the force T \[N/m\], to rounding.
     fn check(&self, T: f64, mu: f64) -> Answer<()> {
         let mu = positive("mu", mu)?;
         let limit = mu * self.line.W * (1.0 + 1e-9);
         Ok(between("T", T, (-limit, limit)).map(drop)?)
     }
 
-    /// Checks that the middle of the stick zone lies in the contact.
+    /// Checks that the stick zone around `middle` \[m\] lies in the contact.
     fn check_middle(&self, T: f64, mu: f64, middle: f64) -> Answer<()> {
         self.check(T, mu)?;
         between("middle", middle, (-self.line.a, self.line.a))?;

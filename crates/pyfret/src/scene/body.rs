@@ -157,7 +157,7 @@ impl Body {
 struct Coatings(Vec<Coating>);
 
 impl Coatings {
-    /// How the layers yield, the substrate last; none where all stay elastic.
+    /// Yield laws of the layers, the substrate last; empty if all stay elastic.
     fn plastic(&self, substrate: Elastic) -> Vec<Option<core::Plastic>> {
         let laws = self.0.iter().map(|c| c.plastic).chain([substrate.1]);
         if laws.clone().all(|law| law.is_none()) {
@@ -166,7 +166,7 @@ impl Coatings {
         laws.collect()
     }
 
-    /// Residual stress of the layers, the substrate last; none where no layer has any.
+    /// Residual stress of the layers, the substrate last; empty if no layer has any.
     fn residual(&self, substrate: Option<Profile>) -> Vec<core::Profile> {
         let substrate = substrate.unwrap_or_default().0;
         let layers = self.0.iter().map(|c| c.residual.clone()).chain([substrate]);
@@ -175,7 +175,7 @@ impl Coatings {
         if none { Vec::new() } else { layers }
     }
 
-    /// Their bonds; none where all are perfect.
+    /// Bonds below the layers; empty if all are perfect.
     fn bonds(&self) -> Vec<core::Bond> {
         let bonds = self.0.iter().map(|c| c.bond);
         if bonds.clone().all(|bond| bond == core::Bond::PERFECT) {
@@ -191,6 +191,7 @@ impl<'py> FromPyObject<'_, 'py> for Coatings {
     const INPUT_TYPE: PyStaticExpr =
         type_hint_union!(Coating::TYPE_HINT, sequence_of!(Coating::TYPE_HINT));
 
+    /// Takes a coating, or a list of coatings.
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(one) = value.extract::<Coating>() {
             return Ok(Self(vec![one]));

@@ -8,7 +8,8 @@ use crate::error::Answer;
 use crate::hints::Numbers;
 use crate::prelude::*;
 
-/// Appends a branch that goes to the loads and motions which `change` makes of the present ones.
+/// Appends a branch to the loads and motions that `change` makes of the present ones; `t` is its path time
+/// (default: one unit later).
 pub(super) fn branch(
     path: &core::LoadPath,
     increments: Option<usize>,
@@ -24,6 +25,7 @@ pub(super) fn branch(
     })
 }
 
+/// A number of every increment of the path, as an array.
 pub(super) fn column<'py>(
     path: &core::LoadPath,
     py: Python<'py>,
@@ -34,7 +36,8 @@ pub(super) fn column<'py>(
     Ok(column.to_pyarray(py).into())
 }
 
-/// Goes to the motions of body 1 on a straight line; one of them may take several values in turn.
+/// Appends branches to motions of body 1 (`named`, in the order of all motions); one of them may have several
+/// values, which are visited in turn.
 pub(super) fn moved(
     path: &core::LoadPath,
     named: [Option<Values>; 6],
@@ -75,7 +78,7 @@ pub(super) fn moved(
     Ok(path)
 }
 
-/// Goes through `n` cycles of the one load or motion that is given.
+/// Appends `n` cycles of the one load or motion that is `named`.
 pub(super) fn cycled(
     path: &core::LoadPath,
     n: usize,
@@ -101,7 +104,7 @@ pub(super) fn cycled(
     Ok(path.clone().visit_values(of, kind, &values, increments))
 }
 
-/// Prescribes what is given of the six motions or their loads.
+/// Prescribes the given motions or loads of the six.
 pub(super) fn prescribe(to: &mut core::Loads, given: [Option<Prescribed>; 6]) {
     for (of, given) in RigidMotion::ALL.into_iter().zip(given) {
         if let Some(prescribed) = given {

@@ -48,7 +48,7 @@ macro_rules! forces {
 
 forces!(W T_x T_y);
 
-/// The unit of a text or of a quantity of pint; none of a number.
+/// The dimension of a force from a text or a quantity of pint; unknown for a number.
 fn units(value: &Bound<'_, PyAny>) -> PyResult<ForceUnits> {
     if !has_unit(value)? {
         return Ok(ForceUnits::default());
@@ -57,7 +57,7 @@ fn units(value: &Bound<'_, PyAny>) -> PyResult<ForceUnits> {
     Ok(text.map_or_else(ForceUnits::default, |text| ForceUnits::from_text(&text)))
 }
 
-/// The values of optional forces and all their units.
+/// The values of optional forces, and the dimensions of all.
 pub(super) fn values_and_units<const N: usize>(
     forces: [Option<Force>; N],
 ) -> ([Option<f64>; N], ForceUnits) {

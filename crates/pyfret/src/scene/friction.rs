@@ -168,6 +168,7 @@ impl<'py> FromPyObject<'_, 'py> for AnyFriction {
     const INPUT_TYPE: PyStaticExpr =
         type_hint_union!(Friction::TYPE_HINT, hints::FLOAT, hints::word!("stick"));
 
+    /// Takes a coefficient, a law, or the word "stick".
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(law) = value.extract::<Friction>() {
             return Ok(Self(law.0));

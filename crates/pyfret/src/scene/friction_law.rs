@@ -19,6 +19,7 @@ const SURFACE: [&str; 6] = ["worn1", "worn2", "layer1", "layer2", "bed", "aerate
 struct Own(Py<PyAny>, Vec<&'static str>);
 
 impl core::FrictionLaw for Own {
+    /// Calls the function with the fields of the cells that it takes; its exception becomes the error.
     fn coefficients(&self, cells: &CellHistory<'_>, mu: &mut [f64]) -> Result<(), LawError> {
         let call = |py: Python<'_>| -> PyResult<()> {
             let fields = [cells.x, cells.y, cells.p, cells.slip, cells.dissipated];
@@ -78,7 +79,7 @@ impl core::FrictionLaw for Own {
     }
 }
 
-/// A law from a function, or from the word for one that is elsewhere.
+/// Makes a law of a function, or of the word that stands for a missing one.
 pub(crate) fn own_law(given: &Bound<'_, PyAny>) -> PyResult<core::UserFriction> {
     if given.extract::<&str>().is_ok_and(|word| word == OWN) {
         return Ok(core::UserFriction::unavailable());
@@ -100,7 +101,7 @@ pub(crate) fn own_law(given: &Bound<'_, PyAny>) -> PyResult<core::UserFriction> 
     ))
 }
 
-/// The function of a law, or the word for one that is elsewhere.
+/// The function of a law, or the word for a missing one.
 pub(crate) fn function<'py>(py: Python<'py>, law: &core::UserFriction) -> Bound<'py, PyAny> {
     let python_law = law.0.as_any().and_then(|law| law.downcast_ref::<Own>());
     python_law.map_or_else(

@@ -15,6 +15,7 @@ impl<'py> FromPyObject<'_, 'py> for Pitch {
 
     const INPUT_TYPE: PyStaticExpr = crate::hints::PITCH;
 
+    /// Takes one length for both axes, or a pair.
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(both) = number(&value) {
             return Ok(Self((both, both)));
@@ -43,6 +44,7 @@ impl<'py> FromPyObject<'_, 'py> for Cells {
 
     const INPUT_TYPE: PyStaticExpr = crate::hints::CELLS;
 
+    /// Takes one number of cells for both axes, or a pair.
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(both) = number(&value) {
             return Ok(Self((both, both)));
@@ -62,6 +64,7 @@ impl<'py> FromPyObject<'_, 'py> for Count {
 
     const INPUT_TYPE: PyStaticExpr = crate::hints::INT;
 
+    /// Takes a number of cells.
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         let count = number(&value).map(Self);
         count.map_err(|_| must_be(&value, "a whole number of cells >= 1, such as 128"))

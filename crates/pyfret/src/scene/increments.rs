@@ -18,6 +18,7 @@ impl<'py> FromPyObject<'_, 'py> for Values {
 
     const INPUT_TYPE: PyStaticExpr = crate::hints::NUMBERS;
 
+    /// Takes a number, or a list of numbers.
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(one) = number(&value) {
             return Ok(Self::One(one));
@@ -31,6 +32,7 @@ impl<'py> FromPyObject<'_, 'py> for Values {
 }
 
 impl Values {
+    /// The values as a slice.
     pub(super) fn slice(&self) -> &[f64] {
         match self {
             Self::One(value) => std::slice::from_ref(value),
@@ -60,6 +62,7 @@ macro_rules! visited {
 
 visited!(M_z; delta_x delta_y delta_z phi_x phi_y phi_z);
 
+/// Reads a value or a list of values of the quantity `name`, each with or without its unit.
 pub(super) fn visit(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Values> {
     if has_unit(value)? {
         return si(name, value).map(Values::One);
@@ -82,6 +85,7 @@ impl<'py> FromPyObject<'_, 'py> for Names {
 
     const INPUT_TYPE: PyStaticExpr = crate::hints::NAMES;
 
+    /// Takes a name, or a list of names.
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(one) = value.extract::<String>() {
             return Ok(Self(vec![one]));
@@ -127,6 +131,7 @@ impl<'py> FromPyObject<'_, 'py> for Count {
 
     const INPUT_TYPE: PyStaticExpr = crate::hints::COUNT;
 
+    /// Takes a whole number, or "auto".
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if value.extract::<&str>().is_ok_and(|word| word == "auto") {
             return Ok(Self(None));
@@ -151,6 +156,7 @@ impl<'py> FromPyObject<'_, 'py> for AnyIncrements {
 
     const INPUT_TYPE: PyStaticExpr = type_hint_union!(PerRange::TYPE_HINT, crate::hints::COUNT);
 
+    /// Takes a number per branch, PerRange, or "auto".
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(per_range) = value.extract::<PerRange>() {
             return Ok(Self::PerRange(per_range));

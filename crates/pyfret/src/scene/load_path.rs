@@ -34,13 +34,13 @@ takes!(
     "a load path, such as LoadPath.start().normal(100.0).tangential([20.0, -20.0])"
 );
 
-/// The path, unless a load or motion has a value that no scene can have.
+/// The path, if all its loads and motions have values that a scene can have.
 pub(super) fn checked(path: core::LoadPath) -> Answer<LoadPath> {
     path.check_values()?;
     Ok(LoadPath(path))
 }
 
-/// The path with the units that its new forces were written in.
+/// Adds the dimensions in which the new forces of a path were written.
 pub(super) fn written(mut path: core::LoadPath, units: core::ForceUnits) -> core::LoadPath {
     path.units.add(units);
     path

@@ -46,7 +46,7 @@ impl Profile {
         })
     }
 
-    /// Return top (bottom/top)^s, both of one sign.
+    /// Return top (bottom/top)^s over the depth s from 0 to 1, both of one sign.
     #[staticmethod]
     #[pyo3(signature = (*, top: "float", bottom: "float"))]
     fn exponential(

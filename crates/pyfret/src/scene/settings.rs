@@ -16,6 +16,7 @@ impl<'py> FromPyObject<'_, 'py> for Settings {
 
     const INPUT_TYPE: PyStaticExpr = crate::hints::SETTINGS;
 
+    /// Takes an instance of the Python class by its document.
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         let class = from_python(value.py(), "Settings")?;
         if !value.is_instance(&class)? {
@@ -37,6 +38,7 @@ impl<'py> IntoPyObject<'py> for Settings {
 
     const OUTPUT_TYPE: PyStaticExpr = crate::hints::SETTINGS;
 
+    /// Makes an instance of the Python class.
     fn into_pyobject(self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let tables: Bound<'py, PyDict> = to_dict(&self.0.to_table(), py)?;
         from_python(py, "Settings")?.call_method1("of", (tables,))
@@ -49,7 +51,7 @@ pub(crate) fn check_settings(settings: Settings) {
     drop(settings);
 }
 
-/// The fields that are kept, by the words of a scene file.
+/// Reads which increments keep their fields, as in a scene file.
 pub(crate) fn save_fields(save: &Bound<'_, PyAny>) -> Answer<core::SaveFields> {
     let output = PyDict::new(save.py());
     output.set_item("save", save)?;

@@ -233,6 +233,7 @@ pub(super) enum Phases {
 }
 
 impl Phases {
+    /// The phase of a load or motion \[rad\], 0 if it is not named.
     fn phase_of(&self, name: &str) -> f64 {
         match self {
             Self::All(phase) => *phase,
@@ -244,6 +245,7 @@ impl Phases {
 impl<'py> FromPyObject<'_, 'py> for Phases {
     type Error = PyErr;
 
+    /// Takes a phase for all, or a dict by names.
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(named) = value.extract::<BTreeMap<String, f64>>() {
             return Ok(Self::Named(named));

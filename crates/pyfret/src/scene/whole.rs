@@ -37,7 +37,7 @@ takes!(
 );
 
 impl Scene {
-    /// The scene with another load history, if one is given.
+    /// A copy of the scene, with another load history if one is given.
     fn with_path(&self, path: Option<LoadPath>) -> core::Scene {
         let mut scene = self.0.clone();
         if let Some(path) = path {

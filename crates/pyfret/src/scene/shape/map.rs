@@ -224,7 +224,7 @@ attributes!(SurfaceMap, self:
     peak_to_valley: f64 = self.0.peak_to_valley();
 );
 
-/// Returns the map, with a warning about the number of filled points.
+/// Wraps a map, with a warning if points were filled.
 fn warn_of_filled(py: Python<'_>, map: core::SurfaceMap) -> Answer<SurfaceMap> {
     if map.filled > 0 {
         let (filled, all) = (map.filled, map.values.len());
@@ -238,7 +238,7 @@ fn warn_of_filled(py: Python<'_>, map: core::SurfaceMap) -> Answer<SurfaceMap> {
     Ok(SurfaceMap(map))
 }
 
-/// Treatment of points without a number.
+/// Reads the treatment of points without a number.
 fn word(missing: &str) -> Answer<core::Missing> {
     core::Missing::from_word(missing).ok_or_else(|| {
         let allowed = "\"refuse\", \"crop\" or \"fill\"";

@@ -20,6 +20,7 @@ pub(crate) struct Sum(Vec<core::Shape>);
 parts!(Sum: parts);
 
 impl Sum {
+    /// Joins the parts of two shapes to one sum.
     fn concat(one: Shape, other: Shape) -> Self {
         let parts = |shape| match core::Shape::from(shape) {
             core::Shape::Sum(parts) => parts,
@@ -86,7 +87,7 @@ pub(crate) enum Shape {
 macro_rules! shapes {
     ($($name:ident { $($field:ident),* })*; $($class:ident($variant:ident))*) => {
         impl Shape {
-            /// The shape of an object of one of the classes.
+            /// The shape of an object of one of these classes; none for others.
             fn found(value: &Bound<'_, PyAny>) -> Option<Self> {
                 $(if let Ok(shape) = value.extract() {
                     return Some(Self::$name(shape));
@@ -100,6 +101,7 @@ macro_rules! shapes {
             const HINT: PyStaticExpr =
                 type_hint_union!($($name::TYPE_HINT,)* $($class::TYPE_HINT),*);
 
+            /// The text of an expression that makes it.
             pub(crate) fn repr(&self) -> String {
                 match self {
                     $(Self::$name(shape) => shape.__repr__(),)*
@@ -140,6 +142,7 @@ impl<'py> FromPyObject<'_, 'py> for Shape {
 
     const INPUT_TYPE: PyStaticExpr = Self::HINT;
 
+    /// Takes an object of a class of shapes.
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         Self::found(&value).ok_or_else(|| {
             must_be(
