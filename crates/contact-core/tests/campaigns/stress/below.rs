@@ -71,7 +71,7 @@ pub(crate) fn judged(scene: &Scene, end: &Fields, stop: &Arc<AtomicBool>) -> Res
     let of_yield = YieldJudge {
         s_y: vec![Some(1e-2 * E); layers],
         residual: ResidualStress::default(),
-        factor: |found| found.von_mises,
+        safety_factor: |found| found.von_mises,
     };
     looked_at(&site, &of_yield, a)?;
     let strength = [("s_D", 1e-3 * E), ("t_D", 6e-4 * E)];
