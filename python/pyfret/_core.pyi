@@ -131,10 +131,10 @@ class Assessment:
         scatter: float | None = None,
     ) -> tuple[tuple[float, float, float], tuple[float, float, float], float, list[str]]:
         """
-        Return the margins of a value with its error (low, best, high) and their range of 10 to 90 %.
+        Return the margins of a value with its error (low, best, high), and their 10 to 90 % range.
 
-        The range has the scatter of the material; `scatter` replaces its default. The other parts are the
-        ratio of this scatter, and notes.
+        The range has the scatter of the material; `scatter` replaces its default. The other parts
+        are the ratio of this scatter, and notes.
         """
     def safety_factor(self, /, value: float) -> float:
         """Factor by which the history may grow until the limit, for values of the criterion."""

@@ -67,10 +67,10 @@ impl Assessment {
         Some([of.E, coefficient, exponent, of.ductility, of.exponent])
     }
 
-    /// Return the margins of a value with its error (low, best, high) and their range of 10 to 90 %.
+    /// Return the margins of a value with its error (low, best, high), and their 10 to 90 % range.
     ///
-    /// The range has the scatter of the material; `scatter` replaces its default. The other parts are the
-    /// ratio of this scatter, and notes.
+    /// The range has the scatter of the material; `scatter` replaces its default. The other parts
+    /// are the ratio of this scatter, and notes.
     #[pyo3(signature = (value: "float", error: "float", material = None, *, scatter: "float | None" = None) -> "tuple[tuple[float, float, float], tuple[float, float, float], float, list[str]]")]
     #[expect(clippy::type_complexity, reason = "the parts of a range")]
     fn range_at(
