@@ -276,7 +276,7 @@ def rough_on_flat(
 
 
 def shaped(part: Any, shape: Any, name: str) -> Body:
-    """Return a part as a body with a shape.
+    """Return a body with a shape from a material (or its name) or a body without a shape.
 
     Raises
     ------
@@ -301,7 +301,7 @@ def shaped(part: Any, shape: Any, name: str) -> Body:
 
 
 def path_of(W: Any, T: Any, shift: Any, sigma_B: Any, cycles: int, unit: str) -> LoadPath:
-    """Return the path: pressed to W, then cycles of a force or of a shift, and of a bulk stress.
+    """Build the load path: pressed to W, then cycles of a force or a shift, and of a bulk stress.
 
     Raises
     ------
@@ -339,7 +339,7 @@ def fitted(
     quiet: bool,
     plane: bool = False,
 ) -> Scene:
-    """Return the scene with a grid for its contact, its scar and its films, and print the grid."""
+    """Build the scene on a grid for its contact, its scar and its films, and print the grid."""
     with warnings.catch_warnings():
         # The printed line has what is not resolved.
         warnings.simplefilter("ignore")
@@ -362,7 +362,7 @@ def fitted(
 
 
 def with_cells_of(grid: Grid, cell: float) -> Grid:
-    """Return the grid with cells of at most a size [m], where that takes no more than may be."""
+    """Refine a grid to cells of at most a size [m], up to the number that is allowed."""
     if min(grid.dx, grid.dy) <= cell or (grid.plane_strain and grid.dx <= cell):
         return grid
     sides = grid.nx * grid.dx, grid.ny * grid.dy

@@ -191,7 +191,7 @@ def _columns(path: Path, kind: str, reason: Exception, refusal: Exception) -> Fi
 
 
 def _listed(columns: RecordColumns) -> dict[str, str]:
-    """List columns with their units, samples and clocks."""
+    """List the columns of a recording with their units, samples and clocks."""
     lines = {}
     for n, (name, unit) in enumerate(zip(columns.names, columns.units, strict=True)):
         if n == LISTED:

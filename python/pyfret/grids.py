@@ -218,7 +218,7 @@ def for_contact(
 def _grid_of_sides(
     body1: Body, body2: Body, sides: list[float], n: int, *, plane_strain: bool
 ) -> Grid:
-    """A grid of square cells on given sides [m], `n` of them along the shorter one."""
+    """Build a grid of square cells on sides [m], `n` of them along the shorter one."""
     size = min(sides) / n
     _doubt_films(body1, body2, [size])
     if plane_strain:
@@ -230,7 +230,7 @@ def _grid_of_sides(
 
 
 def _pressed(path: LoadPath) -> LoadPath:
-    """A path to the largest normal load of another, or to its largest approach.
+    """Return a path to the largest normal load or approach of another path.
 
     Where moments tilt the bodies, it goes on to each branch with one, since the contact moves.
     """
@@ -252,7 +252,7 @@ def _pressed(path: LoadPath) -> LoadPath:
 def _scene(
     body1: Body, body2: Body, path: LoadPath, sides: tuple[float, float], *, plane_strain: bool
 ) -> Scene:
-    """The contact without friction on a coarse grid."""
+    """Build the scene without friction on a coarse grid."""
     if plane_strain:
         grid = _square(sides[0], plane_strain=True)
     else:
@@ -311,7 +311,7 @@ def _lengths(
 
 
 def _box(scene: Scene) -> tuple[float, float] | None:
-    """Twice the reach of the contact from the middle of the grid; none if it reaches the border."""
+    """Return twice the reach of the contact from the middle; None if it reaches the border [m]."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -332,7 +332,7 @@ def _box(scene: Scene) -> tuple[float, float] | None:
 
 
 def _reach(touched: NDArray[np.bool_], d: xr.Dataset, grid: Grid) -> tuple[float, float]:
-    """Twice the reach of cells from the middle of a grid, along x and y [m]."""
+    """Return twice the reach of touched cells from the middle of a grid, along x and y [m]."""
     reach = []
     for name, axis, cell in (("x", 1, grid.dx), ("y", 0, grid.dy)):
         places = np.abs(d[name].values[touched.any(axis=axis)])
@@ -341,7 +341,7 @@ def _reach(touched: NDArray[np.bool_], d: xr.Dataset, grid: Grid) -> tuple[float
 
 
 def _square(extent: float, least: float = 0.0, *, plane_strain: bool = False) -> Grid:
-    """A grid of a trial, of `least` cells along a side or more."""
+    """Build the grid of a trial, with `least` or more cells along a side."""
     if plane_strain:
         return Grid.strip(extent=extent, n=max(4 * COARSE, math.ceil(least)))
     return Grid.centred(width=extent, n=max(COARSE, math.ceil(least)))
@@ -350,7 +350,7 @@ def _square(extent: float, least: float = 0.0, *, plane_strain: bool = False) ->
 def _scar(
     scene: Scene, first: tuple[float, float], wear: dict[str, Any], *, plane_strain: bool
 ) -> tuple[float, float]:
-    """Lengths of the box around contact and scar of a run of wear on few cells [m]."""
+    """Return the lengths of the box around contact and scar, by a run of wear on few cells [m]."""
     fixed = {"tolerance", "jumps", "explicit_jumps"} & wear.keys()
     how = wear if fixed else {**wear, "tolerance": ROUGHLY}
     extent = 2.0 * max(first)
@@ -377,7 +377,7 @@ def _scar(
 
 
 def _smooth(shape: Any) -> Any:
-    """A surface without its roughness."""
+    """Return a surface without its roughness."""
     if not isinstance(shape, Sum):
         return shape
     kept = [part for part in shape.parts if not isinstance(part, Rough)]
@@ -395,14 +395,14 @@ def _shortest(shape: object) -> float:
 
 
 def _wave(part: Any) -> float:
-    """The shortest wave of a part of a surface [m]."""
+    """Return the shortest wave of a part of a surface [m]; infinite if it has none."""
     if isinstance(part, SurfaceMap):
         return _wave_of_map(part)
     return float(getattr(part, "shortest", None) or getattr(part, "wavelength", None) or math.inf)
 
 
 def _wave_of_map(part: SurfaceMap) -> float:
-    """The shortest wave of a measured map [m]: longer ones hold all but a part of its slope.
+    """Return the wavelength [m] above which a measured map holds nearly all of its slope.
 
     The map is tapered by Hann's window; its spectrum of slopes is summed up from the longest wave
     on. No wave is shorter than two points.
@@ -427,7 +427,7 @@ def _wave_of_map(part: SurfaceMap) -> float:
 
 
 def _is_plain(shape: object) -> bool:
-    """Whether a surface has neither edges nor measured heights: the rule of its contact holds."""
+    """Return whether a surface has neither edges nor measured heights."""
     return all(
         isinstance(part, (Flat, Sphere, Ellipsoid, Rough))
         or (isinstance(part, Cylinder) and math.isinf(part.length))
@@ -436,7 +436,7 @@ def _is_plain(shape: object) -> bool:
 
 
 def _numbers(result: Result, of: Number) -> NDArray[np.float64]:
-    """The numbers of a run that two grids have to agree in."""
+    """Return the numbers of a run in which two grids have to agree."""
     if of == "loop":
         d = result.dataset
         ranges = [float(np.ptp(d[name].values)) for name in ("T_x", "T_y", "delta_x", "delta_y")]
@@ -463,6 +463,7 @@ def _refined(
     max_cells = MOST if flat else MOST_TRIED
 
     def numbers(cells: list[int]) -> NDArray[np.float64]:
+        """Solve on a grid of these cells and return the numbers to compare."""
         if flat:
             grid = Grid.strip(extent=sides[0], n=cells[0])
         else:
@@ -474,6 +475,7 @@ def _refined(
             return _numbers(solve(scene.replace(grid=grid), progress=False), of)
 
     def too_many(cells: list[int]) -> bool:
+        """Return whether a grid has more cells than the limit."""
         return max(cells) > MOST or math.prod(cells[:axes]) > max_cells
 
     if too_many([2 * cells for cells in n]):

@@ -78,6 +78,7 @@ Conductors = Conductor | Material | Sequence[Conductor | Material]
 
 
 def _conductors_of_layers(conductors: Conductors, layers: int, name: str) -> list[Conductor]:
+    """Return a conductor for each layer, the substrate last."""
     layers_or_one: Any = conductors
     several = isinstance(layers_or_one, list | tuple)
     conductor_list: list[Any] = items(layers_or_one, name) if several else [layers_or_one] * layers
@@ -91,11 +92,12 @@ def _conductors_of_layers(conductors: Conductors, layers: int, name: str) -> lis
 
 
 def _numbers(layers: list[Conductor]) -> list[tuple[float, float]]:
+    """Return the numbers of the conductors as the core takes them."""
     return [(c.conductivity, c.heat_capacity) for c in layers]
 
 
 def _ends(result: Run, kept: NDArray[np.int64], wave: str) -> NDArray[np.float64]:
-    """Ends of the kept increments of a cycle as parts of its period."""
+    """Return the ends of the kept increments of a cycle as fractions of its period."""
     if wave not in ("sine", "linear"):
         raise ValueError(f'wave = {wave!r}: must be "sine" or "linear"')
     branch = result.dataset.branch_of_increment
@@ -116,7 +118,7 @@ def _ends(result: Run, kept: NDArray[np.int64], wave: str) -> NDArray[np.float64
 
 
 def _heat(result: Run, kept: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Work of every kept increment of a cycle [J/m^2], and the cells in contact."""
+    """Return the work of every kept increment of a cycle [J/m^2], and the cells in contact."""
     branch = result.dataset.branch_of_increment
     whole = branch.increment.values[np.isin(branch.values, branch.sel(increment=kept).values)]
     before, last = int(whole[0]) - 1, int(whole[-1])
@@ -134,7 +136,7 @@ def _heat(result: Run, kept: NDArray[np.int64]) -> tuple[NDArray[np.float64], ND
 
 
 def _maximum(table: xr.Dataset, bulk: tuple[float, float]) -> dict[str, Any]:
-    """The largest temperature, its place and its body."""
+    """Return the largest temperature, its place and its body."""
     body, i, j = np.unravel_index(int(np.argmax(table.largest.values)), table.largest.shape)
     hottest = table.largest.values[body, i, j]
     return {
@@ -230,6 +232,7 @@ def temperature(
     doubts = [doubt for layer in (*layers1, *layers2) for doubt in layer.doubts]
 
     def solved(grid: Grid, heat: NDArray[np.float64], contact: NDArray[np.bool_]) -> dict[str, Any]:
+        """Solve the temperature on a grid."""
         return _core.cycle_temperature(
             _numbers(layers1),
             _numbers(layers2),
@@ -266,7 +269,7 @@ def temperature(
 def _on_coarser_cells(
     grid: Grid, heat: NDArray[np.float64], contact: NDArray[np.bool_]
 ) -> tuple[Grid, NDArray[np.float64], NDArray[np.bool_]]:
-    """The heat of a cycle on cells twice as wide; an odd number gets a row without heat."""
+    """Average the heat of a cycle onto cells twice as wide; odd numbers get a row of zeros."""
     odd_x, odd_y = grid.nx % 2, grid.ny % 2
     heat = np.pad(heat, ((0, 0), (0, odd_x), (0, odd_y)))
     contact = np.pad(contact, ((0, odd_x), (0, odd_y)))
@@ -278,7 +281,7 @@ def _on_coarser_cells(
 
 
 def _table(result: Run, found: dict[str, Any]) -> xr.Dataset:
-    """Make a dataset with coordinates, units and meanings."""
+    """Make a dataset with coordinates, units and meanings of the temperature."""
     coords = {"body": [1, 2], "x": result.dataset.x, "y": result.dataset.y}
     table = xr.Dataset(coords={**coords, "time": found["instants"]})
     heat = found["heat"]

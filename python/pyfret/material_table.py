@@ -161,7 +161,7 @@ def material(
 
 
 def elastic_from(value: Any, parameter: str) -> Any:
-    """Return the elastic material of a name or of a row of the table; others as they are.
+    """Return the elastic material of a name or of a row of the table; other values unchanged.
 
     Raises
     ------

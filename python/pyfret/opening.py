@@ -80,7 +80,7 @@ def open(path: str | os.PathLike[str]) -> Any:
 
 
 def _attributes(path: Path) -> dict[str, Any]:
-    """The attributes of a store or a copy, none where they cannot be read."""
+    """Return the attributes of a store or a copy; none where they cannot be read."""
     if path.suffix == ".nc":
         with files.opened(path) as dataset:
             return dict(dataset.attrs)

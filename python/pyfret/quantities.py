@@ -48,11 +48,11 @@ class HasUnit(Protocol):
 
     @property
     def magnitude(self) -> Any:
-        """Number."""
+        """Return the number."""
 
     @property
     def units(self) -> Any:
-        """Unit of the number."""
+        """Return the unit of the number."""
 
 
 #: A number in SI units, or one with its unit: a text such as ``"3 um"``, a quantity of pint.
@@ -173,6 +173,7 @@ def checked(call: C, dataclass: type | None = None) -> C:
 
     @functools.wraps(call)
     def call_converted(*values: Any, **keywords: Any) -> Any:
+        """Call the function with its arguments checked and converted."""
         signature = read()
         rules, names = signature.rules, signature.names
         if signature.keywords is not None:
@@ -206,6 +207,7 @@ def part(
     """Make a frozen dataclass whose fields are quantities, of the types :class:`InSI`."""
 
     def make(cls: type[T]) -> type[T]:
+        """Make the class."""
         made: Any = dataclass(frozen=True, kw_only=kw_only, eq=eq, repr=repr)(cls)
         return quantities(made)  # type: ignore[no-any-return]
 

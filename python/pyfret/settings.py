@@ -213,7 +213,7 @@ class Settings(Replaceable):
         _core.check_settings(self)
 
     def document(self) -> dict[str, Any]:
-        """The tables of a scene file."""
+        """Return the tables of a scene file."""
         solver = dict(vars(self))
         kernel = {
             "method": solver.pop("kernel").written(),
@@ -226,7 +226,7 @@ class Settings(Replaceable):
 
     @classmethod
     def of(cls, document: dict[str, Any]) -> Settings:
-        """The settings of the tables of a scene file."""
+        """Make the settings of the tables of a scene file."""
         kernel, solver = document["kernel"], document["solver"]
         method: Hankel | InverseFft | FrequencyDomain = Hankel()
         if isinstance(kernel["method"], dict):

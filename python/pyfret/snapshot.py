@@ -62,10 +62,11 @@ class Snapshot(State, Shows):
     """
 
     def _repr_html_(self) -> str:
-        """Tables for notebooks."""
+        """Return tables for notebooks."""
         return state_html(self)
 
     def _elsewhere(self, name: str) -> dict[str, str]:
+        """Return where a name is found that this object does not have."""
         stresses = {measure: f"it is a stress, snapshot.stress().{measure}" for measure in LABELS}
         return {**stresses, **super()._elsewhere(name)}
 

@@ -173,7 +173,7 @@ def resume(
 
 
 def read(scene: Scene | str | os.PathLike[str]) -> Scene:
-    """The scene, read from its file if it is the name of one."""
+    """Return the scene, read from its file if its name is given."""
     if isinstance(scene, Scene):
         return scene
     if not isinstance(scene, (str, os.PathLike)):
@@ -222,7 +222,7 @@ class Increment(Snapshot):
 
     @property
     def dataset(self) -> xr.Dataset:
-        """Fields of dims (x, y), the scalars of the increment, and the attrs of the run."""
+        """Return fields of dims (x, y), the scalars of the increment, and the attrs of the run."""
         if self._labelled is None:
             mine, reached = self._scalars["increment"], self._running.done
             if mine != reached:

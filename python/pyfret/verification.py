@@ -114,7 +114,7 @@ Number = tuple[str, float, float, float | None]
 
 
 def sphere(lower: Body, upper: Elastic, path: LoadPath, *, mu: float, n: int, a: float) -> Scene:
-    """A sphere on a body, on a square of 2.4 contact radii."""
+    """Build the scene of a sphere on a body, on a square of 2.4 contact radii."""
     return Scene(
         body1=Body(upper, shape=Sphere(R)),
         body2=lower,
@@ -125,12 +125,12 @@ def sphere(lower: Body, upper: Elastic, path: LoadPath, *, mu: float, n: int, a:
 
 
 def solved(scene: Scene) -> Result:
-    """The result of a scene."""
+    """Solve a scene without a bar."""
     return solve(scene, progress=False)
 
 
 def hertz(n: int) -> Iterator[Number]:
-    """A sphere pressed on a flat, and the stress on its axis."""
+    """Yield the numbers of a sphere pressed on a flat, and of the stress on its axis."""
     truth = reference.hertz(R=R, bodies=(STEEL, STEEL), W=W)
     path = LoadPath.start().normal(W, increments=1)
     at = solved(sphere(Body(STEEL), STEEL, path, mu=0.0, n=n, a=truth.a)).at(-1)
@@ -146,7 +146,7 @@ def hertz(n: int) -> Iterator[Number]:
 
 
 def partial_slip(n: int) -> Iterator[Number]:
-    """A sphere pushed to and fro below the limit of friction."""
+    """Yield the numbers of a sphere pushed to and fro below the limit of friction."""
     round_ = reference.hertz(R=R, bodies=(CORK, CORK), W=W)
     truth = reference.CattaneoMindlin(round_, bodies=(CORK, CORK), mu=MU)
     T = 0.7 * MU * W
@@ -162,7 +162,7 @@ def partial_slip(n: int) -> Iterator[Number]:
 
 
 def torsion(n: int) -> Iterator[Number]:
-    """A sphere twisted below the limit of friction."""
+    """Yield the numbers of a sphere twisted below the limit of friction."""
     round_ = reference.hertz(R=R, bodies=(STEEL, STEEL), W=W)
     truth = reference.Lubkin(round_, bodies=(STEEL, STEEL), mu=MU)
     c = 0.5 * round_.a
@@ -178,7 +178,7 @@ def torsion(n: int) -> Iterator[Number]:
 
 
 def coated(n: int) -> Iterator[Number]:
-    """A rigid sphere on a stiff coating."""
+    """Yield the numbers of a rigid sphere on a stiff coating."""
     bare = reference.hertz(R=R, bodies=(RIGID, STEEL), W=W)
     coating = Coating(Elastic(E=2 * STEEL.E, nu=STEEL.nu), thickness=bare.a)
     truth = reference.coated_indentation(R=R, indenter=RIGID, coating=coating, substrate=STEEL, W=W)
@@ -191,7 +191,7 @@ def coated(n: int) -> Iterator[Number]:
 
 
 def coupled(n: int) -> Iterator[Number]:
-    """Dissimilar bodies pressed together with friction: stick inside, slip outside."""
+    """Yield the numbers of dissimilar bodies pressed together: stick inside, slip outside."""
     mu = 0.2
     beta = reference.dundurs_beta(STEEL, RIGID)
     truth = reference.coupled_indentation(beta=beta, mu=mu)
@@ -204,7 +204,7 @@ def coupled(n: int) -> Iterator[Number]:
 
 
 def line(n: int) -> Iterator[Number]:
-    """A cylinder in partial slip."""
+    """Yield the numbers of a cylinder in partial slip."""
     truth = reference.line_contact(R=R, bodies=(STEEL, STEEL), W=LINE_W)
     T = 0.5 * MU * LINE_W
     scene = Scene(

@@ -41,7 +41,7 @@ FULL = frozenset((errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EI
 
 
 def parser() -> argparse.ArgumentParser:
-    """The command line."""
+    """Build the parser of the command line with all commands."""
     top = Parser(
         prog="fret",
         description="The commands of fret that need Python: python -m pyfret ...",
@@ -172,7 +172,7 @@ def report(options: argparse.Namespace) -> int:
 
 
 def lives_of(result: Result, options: argparse.Namespace) -> list[Life]:
-    """The lives asked for."""
+    """Return the lives by the criteria that the options name."""
     if options.material is None:
         raise ValueError("--life: needs --material")
     table = Materials(options.materials)
@@ -190,7 +190,7 @@ def lives_of(result: Result, options: argparse.Namespace) -> list[Life]:
 
 
 def verify(options: argparse.Namespace) -> int:
-    """Compare with closed forms, a line for every number."""
+    """Compare solutions with closed forms, and print a line for every number."""
     checked = application("pyfret.verification").verify()
     if options.json:
         checks = [
@@ -211,7 +211,7 @@ def verify(options: argparse.Namespace) -> int:
 
 
 def cite(options: argparse.Namespace) -> int:
-    """Say what to cite."""
+    """Print the sources to cite, the ones of a result or all."""
     result = open_result(options.store) if options.store else None
     if options.json:
         print_answer(version=__version__, sources=[source._asdict() for source in sources(result)])
@@ -226,9 +226,9 @@ def print_answer(**answer: object) -> None:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a command; its exit code.
+    """Run a command and return its exit code.
 
-    That nobody reads on is no failure; what cannot be written is one.
+    A closed pipe is no failure; output that cannot be written is one.
     """
     signal.signal(signal.SIGTERM, stop)
     pass_over_matplotlibrc()
@@ -270,7 +270,7 @@ def leave_output() -> None:
 
 
 def run(arguments: Sequence[str] | None) -> int:
-    """Run a command; its exit code."""
+    """Run a command and return its exit code; errors for people are printed without a traceback."""
     try:
         options = parser().parse_args(arguments)
     except SystemExit as ended:

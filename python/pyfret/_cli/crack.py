@@ -140,7 +140,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def cracks_of(result: Result, options: argparse.Namespace) -> Cracks:
-    """The cracks asked for, or the one that grows."""
+    """Return the cracks that the options describe, or the one that grows."""
     azimuth = None if options.azimuth is None else math.radians(options.azimuth)
     common: dict[str, Any] = {
         "angle": math.radians(options.angle),
@@ -166,7 +166,7 @@ def cracks_of(result: Result, options: argparse.Namespace) -> Cracks:
 
 
 def threshold_of(options: argparse.Namespace) -> Threshold | None:
-    """The threshold asked for, if any."""
+    """Return the threshold that the options describe; None without one."""
     if options.material is not None:
         if options.dK_th is not None or options.dS_0 is not None:
             raise ValueError("--material: gives --dK-th and --dS-0 itself; leave these out")
@@ -182,6 +182,7 @@ def threshold_of(options: argparse.Namespace) -> Threshold | None:
 
 
 def _rows(cracks: Cracks, threshold: Threshold | None) -> list[dict[str, object]]:
+    """Return a row for each length: K_I and K_II over the cycle with errors, and the range."""
     columns = {
         "length": cracks.lengths,
         "K_max": cracks.K_max,
@@ -226,7 +227,7 @@ def _verdict(cracks: Cracks, found: CrackArrest) -> dict[str, object]:
 
 
 def _cycles(life: CrackLife) -> dict[str, object]:
-    """The cycles of a crack and their range, with the words for them."""
+    """Return the cycles of crack growth with their range, as numbers and in words."""
     row: dict[str, object] = {"cycles": life.cycles, "low": life.low, "high": life.high}
     why = life.why_infinite()
     return (
@@ -240,14 +241,14 @@ def _cycles(life: CrackLife) -> dict[str, object]:
 
 
 def _sentence(row: dict[str, Any]) -> str:
-    """The verdict for people."""
+    """Write the verdict on a crack as a sentence."""
     notes = [*row["notes"], *row.get("cycles_notes", [])]
     # A note on estimates that both have stands once.
     return f"crack from x = {um(row['x'])} {'; '.join(dict.fromkeys(notes))}"
 
 
 def _table(rows: list[dict[str, Any]]) -> str:
-    """Intensities over the length for people, each number with its error."""
+    """Write K over the length as a table, each number with its error."""
     unit = "[MPa m^0.5]"
     titles = ["l", f"K_I min\n{unit}", f"K_I max\n{unit}", f"dK\n{unit}"]
     cells = [

@@ -21,7 +21,7 @@ __all__ = ["add_options", "run", "three"]
 
 
 def add_options(commands: argparse._SubParsersAction[Any]) -> None:
-    """The command and its options."""
+    """Add the command and its options."""
     command = added(
         commands,
         "export",
@@ -86,7 +86,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def three(text: str, option: str, of: Callable[[str], float] = float) -> tuple[float, float, float]:
-    """Three numbers with commas between."""
+    """Parse three numbers with commas between them; `option` is named in the error."""
     try:
         x, y, z = (of(part) for part in text.split(","))
     except argparse.ArgumentTypeError as error:

@@ -96,7 +96,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def range_of(text: str) -> tuple[str, tuple[float, ...]]:
-    """Key and range of ``KEY=LOW:HIGH`` or ``KEY=LOW:START:HIGH``."""
+    """Parse ``KEY=LOW:HIGH`` or ``KEY=LOW:START:HIGH``: the key and its numbers."""
     key, value = pair(text, "--unknown")
     try:
         return key, tuple(number(key, part) for part in value.split(":"))

@@ -73,6 +73,7 @@ class Parser(argparse.ArgumentParser):
         self.exit(2)
 
     def _print_message(self, message: str, file: Any = None) -> None:
+        """Write a message to a stream, by default to the standard error if there is one."""
         # Without a standard error, as under pythonw, nothing is printed.
         stream = file or sys.stderr
         if message and stream is not None:
@@ -87,6 +88,7 @@ class Parser(argparse.ArgumentParser):
         ]
 
     def _commands(self) -> Iterable[argparse.Action] | None:
+        """Return the commands of this parser; None if it has none."""
         subparsers = (a for a in self._actions if isinstance(a, argparse._SubParsersAction))
         return next((a._choices_actions for a in subparsers), None)
 
@@ -117,7 +119,7 @@ def value(action: argparse.Action) -> str:
 
 
 def names(action: argparse.Action) -> str:
-    """The names of an option, with its value."""
+    """Return the names of an option with its value, ``--set KEY=VALUE``."""
     short = [name for name in action.option_strings if not name.startswith("--")]
     long = [name for name in action.option_strings if name.startswith("--")]
     text = f"  {short[0]}, " if short else "      "
@@ -137,7 +139,7 @@ def meaning(action: argparse.Action) -> str:
 
 
 def table(rows: list[tuple[str, str]]) -> list[str]:
-    """Names with their meanings beside them, or below where a name is long."""
+    """Return lines of names with their meanings beside them, or below where a name is long."""
     width = min(max((len(name) for name, _ in rows), default=0) + 2, NAMES)
     lines = []
     for name, text in rows:

@@ -47,10 +47,10 @@ def print_json(answer: object, *, indent: int | None = None) -> None:
 
 
 def as_printed(answer: Any) -> Any:
-    """An answer whose numbers JSON has words for.
+    """Return an answer whose numbers JSON has words for.
 
-    A number that is missing or not finite is null, and ``NAME_why`` beside it is the reason. In a
-    list the reasons of all stand in a list. A reason that is given stays.
+    A number that is missing or not finite becomes null, and ``NAME_why`` beside it has the reason.
+    In a list the reasons of all stand in a list. A reason that is there stays.
     """
     if isinstance(answer, dict):
         reasons = {f"{name}_why": reason(value) for name, value in answer.items()}
@@ -64,7 +64,7 @@ def as_printed(answer: Any) -> Any:
 
 
 def reason(value: Any) -> Any:
-    """Why a number, or one of a list, is none; None where all are numbers."""
+    """Return why a number, or a number of a list, is missing; None where all are numbers."""
     if value is None:
         return "not known"
     if isinstance(value, list | tuple):

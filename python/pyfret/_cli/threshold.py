@@ -69,6 +69,7 @@ def run(options: argparse.Namespace) -> int:
     changes = dict(setting(text) for text in options.set)
 
     def scene(values: dict[str, Any]) -> Any:
+        """Return the scene of the file with these values."""
         return with_values(options.scene, {**changes, **values, "output.save": "all"})
 
     searched = options.parameter.split(",")[0].lstrip("-")

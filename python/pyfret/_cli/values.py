@@ -22,7 +22,7 @@ DEGREES = "degrees"
 
 
 def number(key: str, text: str) -> float:
-    """A number in SI, as it is or of a text with a unit, by the key of its quantity.
+    """Read a number in SI, alone or with a unit, by the key of its quantity.
 
     Raises
     ------
@@ -48,7 +48,7 @@ class Value:
 
     @property
     def unit(self) -> str:
-        """Unit of a number alone."""
+        """Return the unit of a number without one."""
         return self.own or (measured_by(self.key) or ("", ""))[1]
 
     def __call__(self, text: str) -> float:
@@ -76,7 +76,7 @@ class Values:
 
     @property
     def unit(self) -> str:
-        """Units of the numbers."""
+        """Return the units of the numbers."""
         return ", ".join(part.unit for part in self.each if part.unit)
 
     def __call__(self, text: str) -> list[float]:
@@ -97,12 +97,13 @@ def takes(
 
 
 def ending(*allowed: str) -> Callable[[str], str]:
-    """What makes an option the name of a file with one of some endings: the type of its argument.
+    """Return a type of argument: the name of a file with one of some endings.
 
-    So a name that nothing can be written to is refused before anything is computed.
+    A name that nothing can be written to is refused before anything is computed.
     """
 
     def named(text: str) -> str:
+        """Return the name, if it has an allowed ending."""
         if Path(text).suffix.lower() not in allowed:
             raise argparse.ArgumentTypeError(f"{text!r}: must end in {', '.join(allowed)}")
         return text
@@ -111,7 +112,7 @@ def ending(*allowed: str) -> Callable[[str], str]:
 
 
 def pair(text: str, option: str) -> tuple[str, str]:
-    """Key and value of ``KEY=VALUE``."""
+    """Split ``KEY=VALUE`` into key and value."""
     key, equals, value = text.partition("=")
     if not (key and equals and value):
         raise ValueError(f"{option} {text}: must be KEY=VALUE, such as grid.n=128")
@@ -119,7 +120,10 @@ def pair(text: str, option: str) -> tuple[str, str]:
 
 
 def setting(text: str) -> tuple[str, Any]:
-    """A key of a scene file and its value; what is no value of TOML is a text."""
+    """Read a key of a scene file and its value.
+
+    A value that is no TOML is a text.
+    """
     key, value = pair(text, "--set")
     try:
         return key, parse_toml(f"value = {value}")["value"]

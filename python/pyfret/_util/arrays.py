@@ -53,7 +53,7 @@ def number(value: object, name: str) -> float:
 
 
 def items(values: Iterable[T], name: str) -> list[T]:
-    """The items of a sequence, one by one, without trust in its ``len``.
+    """Return the items of a sequence one by one, without trust in its ``len``.
 
     Raises
     ------
@@ -74,10 +74,10 @@ def items(values: Iterable[T], name: str) -> list[T]:
 
 
 def plain(values: ArrayLike, name: str, *, holes: bool = False) -> NDArray[np.float64]:
-    """The numbers of an array, by the rules of this module.
+    """Return the numbers of an array, by the rules of this module.
 
-    `name` is the name of the argument. With `holes` missing values are allowed and are NaN. A field
-    with the labels x and y has the shape (x, y), both axes ascending.
+    `name` is the name of the argument. With `holes` missing values are allowed and become NaN. A
+    field with the labels x and y gets the shape (x, y), both axes ascending.
     """
     if sorted(map(str, labels(values))) == list(PLANE):
         ordered: Any = values
@@ -94,7 +94,7 @@ def plain(values: ArrayLike, name: str, *, holes: bool = False) -> NDArray[np.fl
 
 
 def numbers(values: ArrayLike, name: str, *, holes: bool = False) -> NDArray[np.float64]:
-    """The numbers of an array whose labels have been looked at."""
+    """Return the numbers of an array whose labels have been checked."""
     masked = np.ma.isMaskedArray(values) and np.ma.is_masked(values)
     if masked and not holes:
         hidden: Any = np.ma.getmaskarray(np.ma.asarray(values))
@@ -138,7 +138,7 @@ def contains_booleans(values: Any) -> bool:
 
 
 def labels(values: object) -> tuple[Hashable, ...]:
-    """Names of the axes of an array with labels; none of another one."""
+    """Return the names of the axes of an array with labels; none of another array."""
     if hasattr(values, "dims") and hasattr(values, "sizes"):
         return tuple(values.dims)
     if hasattr(values, "iloc") and hasattr(values, "index"):
@@ -147,7 +147,7 @@ def labels(values: object) -> tuple[Hashable, ...]:
 
 
 def pitch(values: Any, name: str) -> tuple[float | None, float | None]:
-    """Spacing of the points of a field along x and y, if its labels have it [m].
+    """Return the spacing of a field along x and y [m], each None where it has no labels.
 
     Raises
     ------
@@ -172,7 +172,7 @@ def pitch(values: Any, name: str) -> tuple[float | None, float | None]:
 
 
 def index(values: Any) -> NDArray[Any] | None:
-    """The index along the one axis of an array with labels, if it has one."""
+    """Return the index along the axis of a labelled array of one dimension; None without one."""
     if not labels(values) or np.ndim(values) != 1:
         return None
     if hasattr(values, "iloc"):
@@ -240,7 +240,7 @@ class Histories:
         long_name: str,
         more: tuple[str, ...] = (),
     ) -> xr.DataArray:
-        """An array (points, ...) with the labels of the points; `more` name the other axes."""
+        """Return an array (points, ...) with labels of its points; `more` names other axes."""
         shape = (*self.shape, *values.shape[1:])
         attrs = {"units": units, "long_name": long_name}
         return xr.DataArray(
@@ -251,7 +251,7 @@ class Histories:
 def histories(
     stress: ArrayLike, name: str = "stress", components: Sequence[str] = COMPONENTS
 ) -> Histories:
-    """The history of a stress, or of a tensor with other names of components, that a caller gives.
+    """Read the history of a stress, or of a tensor with other names of components.
 
     Without labels its shape is (time, ..., 6). With labels one dimension is a time and one is
     ``component`` with the names of the six components, in any order.
@@ -277,7 +277,7 @@ def histories(
 def in_order(
     stress: Any, name: str, components: Sequence[str]
 ) -> tuple[NDArray[np.float64], tuple[Hashable, ...], dict[Hashable, Any]]:
-    """A labelled history as (time, ..., component), names and coordinates of its points."""
+    """Return a labelled history as (time, ..., component), and names and coordinates of points."""
     axes = labels(stress)
     times = [axis for axis in axes if axis in TIMES]
     has_names = "component" in getattr(stress, "coords", {})

@@ -30,7 +30,7 @@ FACTOR = 1.5
 
 
 def split(name: str, names: Collection[str]) -> tuple[str, str]:
-    """The name of a number, and the side of its range."""
+    """Split a name into the number and the side of its range (low, high, or neither)."""
     for side in SIDES:
         base = name.removesuffix(side)
         if side and base != name and base in names:
@@ -50,7 +50,7 @@ def bounds(table: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArray] | 
 
 
 def shown(table: xr.Dataset, name: str, at: Any) -> str:
-    """A number at one place of a table, with the digits that its range leaves.
+    """Format a number at one place of a table with the digits that its range leaves.
 
     An estimate has two digits. The measure of a user has four: its accuracy is not known.
     """
@@ -69,7 +69,7 @@ def is_estimate(values: xr.DataArray) -> bool:
 
 
 def span(table: xr.Dataset, name: str) -> str:
-    """The least and the largest value of a number."""
+    """Format the least and the largest value of a number."""
     values = table[name].values
     ends = [
         np.unravel_index(int(find(values)), values.shape) for find in (np.nanargmin, np.nanargmax)
@@ -81,9 +81,9 @@ def span(table: xr.Dataset, name: str) -> str:
 
 
 def known_to(table: xr.Dataset, name: str) -> str:
-    """How well a number is known over a whole table, for a figure; nothing of a user's measure.
+    """Format the accuracy of a number over a whole table, for a figure; "" for a user's measure.
 
-    To a part of the largest value, or within a factor if that is more than ``FACTOR``.
+    It is a part of the largest value, or a factor if that is more than ``FACTOR``.
     """
     values, ends = table[name].values.astype(float), bounds(table, name)
     if ends is None:

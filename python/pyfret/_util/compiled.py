@@ -128,6 +128,7 @@ def refusing(call: Callable[..., Any], name: str) -> Callable[..., Any]:
     """Return a function whose refusal of an unknown keyword names the nearest known one."""
 
     def parameters() -> list[inspect.Parameter]:
+        """Return the parameters of the function, read at the first refusal."""
         return list(inspect.signature(call).parameters.values())
 
     return refuse_clearly(
@@ -139,7 +140,7 @@ def refusing(call: Callable[..., Any], name: str) -> Callable[..., Any]:
 
 
 def named_parameters(call: Callable[..., Any]) -> tuple[str, ...]:
-    """Return the parameters of a function that are given by name."""
+    """Return the names of the parameters that can be given by keyword."""
     if getattr(call, "__text_signature__", None) is None:
         return ()
     parameters = inspect.signature(call).parameters.values()
@@ -147,7 +148,7 @@ def named_parameters(call: Callable[..., Any]) -> tuple[str, ...]:
 
 
 def taken_elsewhere(call: str, keyword: str) -> str:
-    """Return a clause on the other methods of a class that take a keyword or its synonym."""
+    """Return a clause that names the methods of a class which take a keyword or its synonym."""
     kind, _, method = call.partition(".")
     siblings = {key: named_parameters(member) for key, member in METHODS.get(kind, {}).items()}
     takers = []
@@ -163,7 +164,7 @@ def taken_elsewhere(call: str, keyword: str) -> str:
 def refuse_call(
     name: str, parameters: list[inspect.Parameter], values: Sequence[Any], keywords: dict[str, Any]
 ) -> TypeError | None:
-    """Return the refusal of arguments whose names or whose number are wrong."""
+    """Return the refusal of arguments with unknown names or too many values; None if they fit."""
     # The first value of a constructor is the class.
     if name == "Material" and len(values) == 2 and not keywords:
         return TypeError(

@@ -177,11 +177,12 @@ class Tabular:
         return {"values": lambda: (self.dataset, axes)}  # type: ignore[attr-defined]
 
     def _frame(self, of: str | None) -> pd.DataFrame:
+        """Return the table of a name, the main one for None."""
         make = self._maker(of)
         return data_frame(*make())
 
     def _maker(self, of: str | None) -> Callable[[], tuple[xr.Dataset, Sequence[str] | None]]:
-        """Return what makes a table, the main one without a name."""
+        """Return the function that makes the table of a name, the main one for None."""
         tables = self._tables()
         if of is None:
             return next(iter(tables.values()))

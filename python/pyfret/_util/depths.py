@@ -19,14 +19,14 @@ INVISIBLE = 0.06
 
 
 def interfaces(z: xr.DataArray, layer: xr.DataArray) -> list[float]:
-    """Depths at which the layer changes."""
+    """Return the depths at which the layer changes [m]."""
     changes = np.flatnonzero(np.diff(layer.values))
     # Depths that are given on both sides of an interface change there more than once.
     return list(dict.fromkeys(float(z[n] + z[n + 1]) / 2 for n in changes))
 
 
 def stretched(borders: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Places of the borders of layers on an axis from 0 to 1 that gives each layer room."""
+    """Place the borders of layers on an axis from 0 to 1 so that every layer has enough room."""
     shares = np.diff(borders) / (borders[-1] - borders[0])
     least = min(LEAST, 0.8 / shares.size)
     thin = shares < least

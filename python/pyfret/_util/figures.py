@@ -47,7 +47,7 @@ def first_types(function: Callable[..., Any]) -> set[str]:
 
 
 def figures_of(kind: type) -> list[str]:
-    """The names of the figures that take a thing of a class with the attribute ``figure``.
+    """Return the names of the figures that draw an object of a class with the attribute ``figure``.
 
     The first argument of a figure is of that class or of one above it. A class that fits a protocol
     has the first type of the figure that shows the whole.

@@ -55,7 +55,7 @@ def unfolded(value: Any) -> Any:
 
 
 def plain(value: Any) -> Any:
-    """An attribute of which every format gives the same back."""
+    """Return an attribute in the form in which every format gives it back."""
     if isinstance(value, np.ndarray | np.generic):
         value = value.tolist()
     if isinstance(value, list | tuple):
@@ -66,7 +66,7 @@ def plain(value: Any) -> Any:
 
 
 def content(values: Any) -> bytes:
-    """Numbers and texts of which every format gives the same back."""
+    """Return numbers and texts as bytes, the same after every format."""
     array = np.asarray(values)
     if array.dtype.kind in "biuf":
         return np.ascontiguousarray(array, "<f8" if array.dtype.kind == "f" else "<i8").tobytes()
@@ -74,7 +74,7 @@ def content(values: Any) -> bytes:
 
 
 def sums_of(dataset: xr.Dataset, *, numbers: bool) -> dict[str, int]:
-    """Checksums of the attributes (its name is empty) and of each variable with its labels.
+    """Return checksums of the attributes (key "") and of each variable with its labels.
 
     Without `numbers` the units of the variables stand in their labels alone.
     """
@@ -90,7 +90,7 @@ def sums_of(dataset: xr.Dataset, *, numbers: bool) -> dict[str, int]:
 
 
 def compare(dataset: xr.Dataset) -> xr.Dataset:
-    """The dataset without its checksums, which are compared.
+    """Return the dataset without its checksums, after comparing them.
 
     Raises
     ------
@@ -161,7 +161,7 @@ def need_netcdf() -> None:
 
 
 def replaceable(place: Path) -> bool:
-    """Whether it is a file or a folder of results."""
+    """Return whether the place holds a file or folder of results, which may be replaced."""
     if place.is_dir():
         return any((place / name).is_file() for name in (".zgroup", ".zmetadata", "zarr.json"))
     return place.suffix == ".nc" and place.is_file()
@@ -178,7 +178,7 @@ def gzip() -> dict[str, Any]:
         """GZip whose head has the time 0."""
 
         def encode(self, buf: Any) -> bytes:
-            """Compress bytes."""
+            """Compress bytes; the head of the result has no time."""
             return packing.compress(np.ascontiguousarray(buf).tobytes(), self.level, mtime=0)
 
     return encoding_of(WithoutClock(level=1))
@@ -293,7 +293,7 @@ def reserve(path: Path, size: int) -> None:
 
 
 def read(path: str | os.PathLike[str]) -> xr.Dataset:
-    """The dataset of a Zarr store or of a NetCDF file (``.nc``) that :func:`write` wrote."""
+    """Read the dataset of a Zarr store or of a NetCDF file (``.nc``) that :func:`write` wrote."""
     if Path(path).suffix == ".nc":
         need_netcdf()
         size = len(read_bytes(path))
@@ -316,7 +316,7 @@ def read(path: str | os.PathLike[str]) -> xr.Dataset:
 
 
 def opened(path: str | os.PathLike[str]) -> xr.Dataset:
-    """The dataset of a file, as :func:`read`; a StoreError with the reason where it has none.
+    """Open the dataset of a file as :func:`read`; a StoreError has the reason if there is none.
 
     Of a folder :func:`pyfret._util.stores.check_store` comes first.
     """
@@ -333,7 +333,7 @@ def opened(path: str | os.PathLike[str]) -> xr.Dataset:
 
 
 def checked(path: str | os.PathLike[str], *, chunks: bool = True) -> None:
-    """Refuse, before anything is read of it, what is neither a file nor a folder of ours.
+    """Refuse a file or folder that pyfret has not written, before anything is read of it.
 
     `chunks` as in :func:`pyfret._util.stores.check_store`.
     """
@@ -349,7 +349,7 @@ def checked(path: str | os.PathLike[str], *, chunks: bool = True) -> None:
 
 
 def is_copy(path: str | os.PathLike[str]) -> bool:
-    """Whether a file is one without checksums, by :func:`write` or xarray.
+    """Return whether a file is a copy without checksums, by :func:`write` or xarray.
 
     Zarr folders of schema 1 are stores: they had none either, and are refused as such.
     """

@@ -77,7 +77,7 @@ if not TYPE_CHECKING:
 
 
 def alike(one: Any, other: Any) -> bool:
-    """Whether two fields are the same, arrays and lists of them entry by entry."""
+    """Return whether two fields are equal; arrays, and lists of them, entry by entry."""
     if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
         numbers = np.asarray(one).dtype.kind == "f" and np.asarray(other).dtype.kind == "f"
         return np.array_equal(one, other, equal_nan=numbers)
@@ -89,7 +89,7 @@ def alike(one: Any, other: Any) -> bool:
 
 
 def short(value: Any) -> str:
-    """A field as text."""
+    """Return a field as a short text."""
     if isinstance(value, np.ndarray) and value.size > SHOWN:
         return f"<array of {' x '.join(map(str, value.shape))}>"
     if isinstance(value, Sequence) and not isinstance(value, str) and len(value) > SHOWN:

@@ -22,7 +22,7 @@ def layers_made_of(name: str, materials: Sequence[Any]) -> list[int]:
 
 
 def is_made_of(item: Any, names: set[str], numbers: dict[str, float]) -> bool:
-    """Check whether a layer is of a material of the table, by its name or by Young's modulus."""
+    """Check whether a layer has a material of the table: one of `names`, or its Young's modulus."""
     if item is None:
         return False
     if isinstance(getattr(item, "name", None), str):

@@ -26,7 +26,7 @@ LENGTHS = ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm"))
 
 
 def in_words(value: float, digits: int = 4) -> str:
-    """A few digits, no trailing zeros, no power of ten where none is needed.
+    """Format a number with a few digits, without trailing zeros or a needless power of ten.
 
     Examples
     --------
@@ -93,7 +93,7 @@ def in_letters(text: str) -> str:
 
 
 def in_powers(text: str) -> str:
-    r"""A text with numbers such as 1.3e6 as figures have them.
+    r"""Write numbers such as 1.3e6 in a text as powers of ten for figures.
 
     Examples
     --------
@@ -104,6 +104,7 @@ def in_powers(text: str) -> str:
     """
 
     def power(match: re.Match[str]) -> str:
+        """Return one number as a power of ten."""
         factor = "" if float(match[1]) == 1.0 else rf"{match[1].removesuffix('.0')}\times "
         return f"${factor}10^{{{int(match[2])}}}$"
 
@@ -133,7 +134,7 @@ class Placed(Protocol):
 
 
 def place(of: Placed, coatings: int | None = None) -> str:
-    """Where something lies, in ASCII: short lengths with their units, and the layer.
+    """Describe a place in ASCII: short lengths with their units, and the layer.
 
     The layer is called by its name if the number of coatings is known, else by its number.
     """

@@ -17,7 +17,7 @@ __all__ = ["packed", "unpacked"]
 
 
 def packed(value: Any, arrays: dict[str, np.ndarray]) -> Any:
-    """A part as JSON; its arrays go into `arrays`."""
+    """Convert a part to JSON; its arrays are put into `arrays`."""
     if isinstance(value, np.ndarray):
         name = f"array_{len(arrays)}"
         arrays[name] = value
@@ -44,7 +44,7 @@ def packed(value: Any, arrays: dict[str, np.ndarray]) -> Any:
 
 
 def unpacked(value: Any, dataset: xr.Dataset, parts: Mapping[str, type]) -> Any:
-    """The part of its JSON; only classes of `parts` are made."""
+    """Rebuild a part from its JSON; only classes of `parts` are made."""
     if isinstance(value, list):
         return [unpacked(item, dataset, parts) for item in value]
     if not isinstance(value, dict):

@@ -35,7 +35,7 @@ PAGE = """<!DOCTYPE html>
 
 
 def write_page(path: Path, title: str, content: str) -> None:
-    """Write a page of a title and of content in HTML; one that is there is replaced."""
+    """Write a page with a title and content in HTML; a page that is there is replaced."""
     css = theme.css_variables() + LOOKS.read_text(encoding="utf-8")
     with replacement(path) as unfinished:
         unfinished.write_text(

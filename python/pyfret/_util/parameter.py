@@ -106,19 +106,19 @@ LARGEST = 2**1024
 
 
 def names_path(hint: Any) -> bool:
-    """Whether a type is a path."""
+    """Return whether a type is a path."""
     return (typing.get_origin(hint) or hint) is os.PathLike
 
 
 def is_text(hint: Any) -> bool:
-    """Whether a type is a text, a choice of texts, or a path."""
+    """Return whether a type is a text, a choice of texts, or a path."""
     if typing.get_origin(hint) is Literal:
         return all(isinstance(choice, str) for choice in typing.get_args(hint))
     return hint is str or names_path(hint)
 
 
 def is_texts(hint: Any) -> bool:
-    """Whether a type is a sequence of texts."""
+    """Return whether a type is a sequence of texts."""
     items_of = [kind for kind in typing.get_args(hint) if kind is not Ellipsis]
     several = typing.get_origin(hint) in (Sequence, tuple, list)
     return several and bool(items_of) and all(is_text(m) for k in items_of for m in members(k))
@@ -140,7 +140,7 @@ def is_object(hint: Any) -> bool:
 
 
 def is_instance(value: Any, kind: type) -> bool:
-    """Whether a value is an instance of a class, or has the attributes of a protocol."""
+    """Return whether a value is an instance of a class, or has the attributes of a protocol."""
     if isinstance(value, PLAIN):
         return False
     if isinstance(kind, Named):
@@ -157,7 +157,7 @@ def has_unit(value: Any) -> bool:
 
 
 def short_repr(value: Any) -> str:
-    """Return a plain value as it is written, an object by its class."""
+    """Return a plain value as it is written, and an object as the name of its class."""
     if not isinstance(value, PLAIN):
         return f"<{type(value).__name__}>"
     try:
@@ -233,7 +233,7 @@ class Parameter:
             self.unit.warn(self.name, value)
 
     def find(self, value: Any) -> Any:
-        """Find a material by its name, and make what is meant of the material."""
+        """Return the material of a name, converted to the class that the parameter takes."""
         if self.laws and isinstance(value, str | _core.Material):
             material = read_material(value, self.name) if isinstance(value, str) else value
             return self.laws[0].from_material(material)
@@ -371,7 +371,7 @@ UNCHECKED = (bool, Any, Callable, Mapping, dict)
 
 
 def number_kind(kinds: list[Any]) -> str | None:
-    """Return what a parameter takes: a count, a number, an array, several, a text, other things."""
+    """Return the kind of a parameter: count, number, array, several, text; None for others."""
     leaves = set(map(leaf, kinds))
     if "unchecked" in leaves or not leaves & {"number", "count", "array", "several", "counts"}:
         return None

@@ -27,7 +27,7 @@ def single(name: str) -> str:
 
 
 def full(name: str) -> str:
-    """The key that a name stands for: ``friction.mu`` for ``mu``."""
+    """Return the key of a short name: ``friction.mu`` for ``mu``."""
     parts = (part.strip() for part in name.split(","))
     return ",".join(
         "-" * part.startswith("-") + SHORT.get(single(part), single(part)) for part in parts
@@ -35,7 +35,7 @@ def full(name: str) -> str:
 
 
 def one_of(known: Iterable[str], name: str, what: str) -> str:
-    """The parameter of a study that a name means, short or long.
+    """Return the parameter of a study that a name means, short or long.
 
     Raises
     ------
@@ -55,7 +55,7 @@ def one_of(known: Iterable[str], name: str, what: str) -> str:
 
 
 def in_si(name: str, value: Any) -> Any:
-    """A text with a unit, or a quantity of pint, as the number in SI; other values as they are.
+    """Convert a text with a unit, or a quantity of pint, to SI; return other values unchanged.
 
     Texts of keys that measure nothing, such as names of materials, stay texts.
 
@@ -75,7 +75,7 @@ def in_si(name: str, value: Any) -> Any:
 
 
 def part(dataset: xr.Dataset, at: Mapping[str, Any]) -> xr.Dataset:
-    """The part of a study at values of some parameters: the nearest numbers, the same texts.
+    """Select the part of a study at values of some parameters: nearest numbers, equal texts.
 
     Raises
     ------
@@ -106,7 +106,7 @@ def part(dataset: xr.Dataset, at: Mapping[str, Any]) -> xr.Dataset:
 
 
 def opposite(value: Any) -> Any:
-    """A value with the other sign, a text with a unit too."""
+    """Return a value with the other sign; a text keeps its unit."""
     if not isinstance(value, str):
         return -value
     text = value.strip()

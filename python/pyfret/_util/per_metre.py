@@ -17,7 +17,7 @@ PER_METRE = {"N": "N/m", "N m": "N m/m", "J": "J/m"}
 
 
 def of_line_contacts(d: xr.Dataset) -> bool:
-    """Whether the stored scene of a study is a line contact on one metre."""
+    """Return whether the stored scene of a study is a line contact with forces per metre."""
     try:
         grid = parse_toml(json.loads(d.attrs["study"])["scene"])["grid"]
     except (KeyError, ValueError):

@@ -25,7 +25,7 @@ INTERVAL = 0.1
 
 
 def watched(stream: Any) -> bool:
-    """Whether people see a bar on a stream: a terminal that moves its cursor, a notebook."""
+    """Return whether a stream is a terminal that moves its cursor, or a notebook."""
     try:
         terminal = bool(stream.isatty()) and os.environ.get("TERM") != "dumb"
     except (AttributeError, OSError, ValueError):
@@ -40,7 +40,7 @@ def in_notebook() -> bool:
 
 
 def notebook_view() -> Any:
-    """An output of the cell that runs which can be changed later; none where there is no cell."""
+    """Return an output of the notebook's cell that can be changed later; None outside of a cell."""
     try:
         display = import_module("IPython.display").display
     except ImportError:
@@ -80,7 +80,7 @@ class Progress:
         return self
 
     def update(self, done: int, total: int) -> None:
-        """Say that `done` of `total` increments are solved."""
+        """Show that `done` of `total` increments are solved."""
         self.done, self.total = done, total
         now = time.monotonic()
         if Progress.observer is not None and Progress._outermost is self:
@@ -90,7 +90,7 @@ class Progress:
             self.show(self.line(now - self.started))
 
     def show(self, line: str) -> None:
-        """Draw a line in place of the last, in a notebook as an output of its own."""
+        """Draw a line in place of the last one, in a notebook as an output of its own."""
         if self.view is None and in_notebook():
             self.view = notebook_view()
         if self.view is not None:
@@ -102,7 +102,10 @@ class Progress:
         self.drawn_letters = len(line)
 
     def draw(self, text: str) -> None:
-        """Write to standard error, what it cannot show replaced; a bar that fails ends there."""
+        """Write to standard error; characters that it cannot show are replaced.
+
+        A bar that fails ends there.
+        """
         stream = sys.stderr
         try:
             letters = getattr(stream, "encoding", None) or "ascii"
@@ -112,7 +115,7 @@ class Progress:
             self.shown = False
 
     def line(self, elapsed: float) -> str:
-        """The bar, counts and times after `elapsed` seconds."""
+        """Return the bar, the counts and the times after `elapsed` seconds."""
         share = min(self.done / max(self.total, 1), 1.0)
         # The counts stay in sight in a narrow window.
         wide = (terminal_width(sys.stderr) or WIDE) >= WIDE

@@ -52,6 +52,7 @@ def refuse_clearly(
 
     @functools.wraps(call)
     def call_refusing(*values: Any, **keywords: Any) -> Any:
+        """Call the function; its refusals name the argument."""
         try:
             return call(*values, **keywords)
         except (*WRONG_CLASSES, TypeError, ValueError, LookupError, OSError) as error:

@@ -32,9 +32,9 @@ def warn(text: str) -> None:
 
 
 def doubts_of(of: str, /, **numbers: Any) -> list[str]:
-    """Give the doubts of numbers by their names, parameters of `of` or keys of a scene file.
+    """Return warnings on numbers by their names, parameters of `of` or keys of a scene file.
 
-    Of lists each number counts, of arrays the largest, of tables the largest of the last column.
+    In lists each number counts, in arrays the largest, in tables the largest of the last column.
     Other values are left out.
     """
     warnings = []
@@ -53,7 +53,7 @@ def doubt_numbers(of: str, /, **numbers: Any) -> None:
 
 
 def is_row(given: Any) -> bool:
-    """Whether it is a row of a table of two numbers or more."""
+    """Return whether it is a row of two numbers or more."""
     return (
         isinstance(given, (list, tuple))
         and len(given) > 1
@@ -62,7 +62,7 @@ def is_row(given: Any) -> bool:
 
 
 def sizes(given: Any) -> Iterator[float]:
-    """The numbers that may be doubted in what is given."""
+    """Yield the numbers of a value that are judged: see :func:`doubts_of`."""
     if isinstance(given, (bool, str, bytes)) or given is None:
         return
     if isinstance(given, (list, tuple)):

@@ -21,7 +21,7 @@ LARGER = {"Pa": ((1e9, "GPa"), (1e6, "MPa")), "N/m": ((1e3, "kN/m"),)}
 
 
 def sheet(of: Any) -> str:
-    """Give the class and a line for each number and each part of it: name, value, meaning."""
+    """Return the class of an object and a line for each number and part: name, value, meaning."""
     rows = sorted(lines(of), key=lambda row: "(" in row[1])
     names = max(len(name) for name, _, _ in rows)
     # A part is longer than any number, and no column of its own.
@@ -31,7 +31,7 @@ def sheet(of: Any) -> str:
 
 
 def lines(of: Any, before: str = "") -> Iterator[tuple[str, str, str]]:
-    """Name, value and meaning of every attribute; a part with a sheet by its name."""
+    """Yield name, value and meaning of every attribute; parts with a sheet come by name."""
     for name, attribute in inspect.getmembers_static(type(of), inspect.isgetsetdescriptor):
         match = DOCUMENTED.match(inspect.getdoc(attribute) or "")
         if name.startswith("_") or match is None:
@@ -44,7 +44,7 @@ def lines(of: Any, before: str = "") -> Iterator[tuple[str, str, str]]:
 
 
 def shown(value: Any, unit: str) -> str:
-    """A number with its unit; a part of several numbers by itself."""
+    """Format a number with its unit, any other value by its repr."""
     if not isinstance(value, float | int):
         return repr(value)
     if unit == "m":

@@ -25,7 +25,7 @@ ENERGIES = {"J": 1.0, "mJ": 1e-3, "kJ": 1e3}
 
 
 def respelled(text: str, unit: str) -> float | None:
-    """Return the number in a unit of SI of a text in another spelling; None where it is none.
+    """Read a number with a unit in another spelling, in a unit of SI; None if it is none.
 
     Examples
     --------

@@ -97,7 +97,7 @@ class Refused(Exception):
 
 
 def entries(folder: str | os.PathLike[str], levels: int) -> Iterator[os.DirEntry[str]]:
-    """Iterate over the files of a folder and of the folders in it."""
+    """Yield the files of a folder and of the folders in it, so many `levels` deep."""
     if levels == 0:
         raise Refused(f"{Path(folder).name}: folders lie {DEEPEST} deep in it")
     with os.scandir(folder) as listed:
@@ -111,7 +111,7 @@ def entries(folder: str | os.PathLike[str], levels: int) -> Iterator[os.DirEntry
 
 
 def check_document(root: Path, file: Path, *, chunks: bool) -> None:
-    """Refuse what a document of metadata asks for; the message names the document."""
+    """Refuse a document of metadata that asks for too much memory; the message names it."""
     name = file.relative_to(root)
     try:
         document = json.loads(read_bytes(file))
@@ -126,7 +126,7 @@ def check_document(root: Path, file: Path, *, chunks: bool) -> None:
 
 
 def check_arrays(document: Mapping[str, Any], where: Path, root: Path, *, chunks: bool) -> None:
-    """Refuse what a document asks for in its array, or in the arrays that it collects."""
+    """Refuse an array of a document, or of its collected metadata, that is too large."""
     check_array(document, where, root, chunks=chunks)
     for key in ("metadata", "consolidated_metadata"):
         inner = document.get(key)
@@ -139,7 +139,7 @@ def check_arrays(document: Mapping[str, Any], where: Path, root: Path, *, chunks
 
 
 def check_array(of: Mapping[str, Any], where: Path, root: Path, *, chunks: bool) -> None:
-    """Refuse what the metadata of an array ask for; other documents describe no arrays."""
+    """Refuse metadata of an array that ask for too much memory; others describe no array."""
     if "shape" not in of and "dtype" not in of and "data_type" not in of:
         return
     name = where.name
@@ -158,7 +158,7 @@ def check_array(of: Mapping[str, Any], where: Path, root: Path, *, chunks: bool)
 
 
 def codecs(of: Mapping[str, Any]) -> list[Any]:
-    """The codecs that an array names."""
+    """Return the codecs that an array names."""
     listed = of.get("codecs") or []
     codecs = [of["compressor"]] if of.get("compressor") is not None else []
     return [*codecs, *(listed if isinstance(listed, list) else [listed])]

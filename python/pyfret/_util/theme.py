@@ -171,6 +171,7 @@ def css_variables() -> str:
     """Return a sheet of CSS with :func:`variables`, dark where the reader's screen is dark."""
 
     def block(values: dict[str, str]) -> str:
+        """Return the declarations of some variables."""
         return "".join(f"{name}: {value}; " for name, value in values.items())
 
     light = block(variables())

@@ -14,7 +14,7 @@ __all__ = ["parse_toml", "read_toml"]
 
 
 def parse_toml(text: str) -> dict[str, Any]:
-    """Return the document of a text; a ValueError where it is no TOML."""
+    """Parse a text in TOML; a ValueError has the fault and its line."""
     if sys.version_info >= (3, 11):
         import tomllib
     else:
@@ -24,7 +24,7 @@ def parse_toml(text: str) -> dict[str, Any]:
 
 
 def read_toml(file: Path) -> dict[str, Any]:
-    """Return the document of a file; a ValueError with its name where it is no TOML."""
+    """Parse a file in TOML; a ValueError has its name, the fault and its line."""
     text = read_text(file)
     try:
         return parse_toml(text)

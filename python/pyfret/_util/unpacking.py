@@ -22,7 +22,7 @@ PART, MARGIN = 1 << 18, 1 << 12
 
 
 def unpacks_within(file: Path, codec: str, limit: int) -> bool:
-    """Whether a packed chunk unpacks to at most a number of bytes.
+    """Return whether a packed chunk unpacks to at most `limit` bytes.
 
     Deflated chunks (gzip, zlib) are unpacked in parts that are thrown away, where they are large
     enough to do harm. The heads of blosc and zstd have the size that their libraries make room for.

@@ -117,7 +117,7 @@ def table(name: str) -> list[dict[str, Any]]:
 
 
 def number(text: str) -> float | str | None:
-    """A cell of a table."""
+    """Read a cell of a table as a number, a text, or None if it is empty."""
     try:
         return float(text) if text else None
     except ValueError:
@@ -125,7 +125,7 @@ def number(text: str) -> float | str | None:
 
 
 def row_of(name: str, key: str, value: str) -> dict[str, Any]:
-    """The row of a table with that name of its test."""
+    """Return the row of the test `name` whose column `key` has this value."""
     rows = table(name)
     for row in rows:
         if row[key] == value:
@@ -134,7 +134,7 @@ def row_of(name: str, key: str, value: str) -> dict[str, Any]:
 
 
 def to_and_fro(W: float, slip: float, *, W_end: float | None = None) -> LoadPath:
-    """Press, then slide between -slip and slip; at the ends with another force if one is given."""
+    """Press, then slide between -slip and slip; with `W_end` the ends have that force."""
     path = LoadPath.start().normal(W).displace(delta_x=slip)
     if W_end is None:
         return path.displace(delta_x=-slip).displace(delta_x=slip)
@@ -144,7 +144,7 @@ def to_and_fro(W: float, slip: float, *, W_end: float | None = None) -> LoadPath
 
 
 def line(R: float, W: float, slip: float, mu: float, half_width: float, n: int = 192) -> Scene:
-    """A cylinder on a flat, both of Ti-6Al-4V, on a grid that the scar and its stroke fit into."""
+    """Build the scene of a cylinder on a flat of Ti-6Al-4V, on a grid for scar and stroke."""
     return Scene(
         body1=Body(TI64, shape=Cylinder(R=R)),
         body2=Body(TI64),

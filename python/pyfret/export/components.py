@@ -31,9 +31,9 @@ EQUAL = 1e-4
 
 
 def read_order(names: Sequence[str]) -> tuple[str, ...]:
-    """The order of the components of a stress, such as ("xx", "yy", ...), from their names.
+    """Read the order of the components of a stress from names such as S11, sxx.
 
-    A ValueError for names of something else: strains, contact pressures, principal stresses.
+    A ValueError for names of other fields: strains, contact pressures, principal stresses.
     """
     order = []
     for name in names:
@@ -52,7 +52,7 @@ def read_order(names: Sequence[str]) -> tuple[str, ...]:
 
 
 def to_matrices(values: NDArray[np.float64], order: Sequence[str]) -> NDArray[np.float64]:
-    """Tensors as matrices, shape (n, 3, 3); a component that the order lacks is zero."""
+    """Arrange tensors as matrices, shape (n, 3, 3); components that the order lacks are zero."""
     matrices = np.zeros((len(values), 3, 3))
     for column, pair in enumerate(order):
         i, j = ("xyz".index(axis) for axis in pair)
@@ -66,7 +66,7 @@ def to_matrices(values: NDArray[np.float64], order: Sequence[str]) -> NDArray[np
 
 
 def to_vectors(values: NDArray[np.float64], names: Sequence[str]) -> NDArray[np.float64]:
-    """Vectors along x, y, z, shape (n, 3), ordered by the names of their components, if any."""
+    """Arrange vectors along x, y, z, shape (n, 3), by the names of their components, if any."""
     if values.shape[1] < 3:
         raise ValueError(f"{values.shape[1]} components: a displacement must have three")
     axes = [VECTOR.fullmatch(name.strip()) for name in names]

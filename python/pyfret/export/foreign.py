@@ -101,7 +101,7 @@ def _names_in_xml(content: bytes, field: bytes) -> tuple[str, ...]:
 
 
 def read_by_meshio(path: Path) -> Any:
-    """What meshio reads of a file; a ValueError if that is of another format, or misses a part."""
+    """Read a file by meshio; a ValueError if it has another format or a part is missing."""
     ending = path.suffix.lower()
     if ending not in FORMATS:
         endings = ", ".join(FORMATS)

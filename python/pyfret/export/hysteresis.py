@@ -84,7 +84,7 @@ def hysteresis(result: Run, *, direction: Literal["x", "y", "torsion"] = "x") ->
 def _backbone(
     dataset: xr.Dataset, force: str, shift: str
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Shift and force from no shear on, along the first branch that shears at a constant W."""
+    """Return shift and force from zero shear along the first branch that shears at constant W."""
     branch = dataset.branch_of_increment.values
     W, T, delta = (dataset[name].values for name in ("W", force, shift))
     for number in np.unique(branch).tolist():
@@ -104,7 +104,7 @@ def _backbone(
 
 
 def _masing(delta: NDArray[np.float64], T: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Energy of the loops at the half ranges delta [J].
+    """Compute the energy of loops at the half ranges `delta` [J] from the backbone.
 
     The integral uses parabolas through three rows each, so that it is of third order.
     """

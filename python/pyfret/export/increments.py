@@ -43,7 +43,7 @@ class StoredIncrement:
 
     @property
     def label(self) -> str:
-        """The words that choose this increment."""
+        """Return the words that choose this increment."""
         if self.kind == "load":
             return f"time {self.value:g}"
         if self.mode is not None:

@@ -81,7 +81,7 @@ class Line:
 
 
 def lines_of(path: Path) -> Iterator[Line]:
-    """The lines of a file without comments, keywords with what goes on in the next line."""
+    """Yield the lines of a file without comments; continued keywords are joined."""
     rows = enumerate(read_text(path).splitlines(), 1)
     for n, row in rows:
         text = row.strip()
@@ -99,7 +99,7 @@ def lines_of(path: Path) -> Iterator[Line]:
 
 
 def read_parts(path: Path) -> list[Part]:
-    """The parts of a file where they lie; a ValueError by line and keyword at what is not read."""
+    """Read the parts of a file at their places; a ValueError has the line at fault."""
     reader = _Reader(path)
     for line in lines_of(path):
         try:
@@ -123,7 +123,7 @@ class _Reader:
         self.open_line = False
 
     def take(self, line: Line) -> None:
-        """Take a line."""
+        """Read a line of data for the present keyword, or a keyword."""
         if line.keyword:
             self.begin(line)
         elif self.keyword == "NODE":
@@ -142,7 +142,7 @@ class _Reader:
             self.instances[-1][3].append(row_of_move)
 
     def begin(self, line: Line) -> None:
-        """Take a keyword."""
+        """Begin a keyword."""
         self.keyword, self.open_line = line.keyword, False
         for name, why in REFUSED.items():
             if line.keyword == name:
@@ -167,7 +167,7 @@ class _Reader:
             self.now = self.own.setdefault(len(self.instances) - 1, Part())
 
     def placed(self) -> list[Part]:
-        """All parts, in the axes of the assembly."""
+        """Return all parts in the axes of the assembly."""
         parts = [self.flat] if self.flat.numbers else []
         if self.parts and not self.instances:
             raise ValueError(f"{self.path}: its *PART stands in no *INSTANCE: nothing places it")
@@ -189,7 +189,7 @@ class _Reader:
 
 
 def kind_of(kind: str) -> str:
-    """Whether elements of a type are volumes, faces, or neither; an unknown type is refused."""
+    """Return whether elements of a type are volumes, faces or neither; refuse others."""
     name = kind.upper()
     if not name:
         raise ValueError("*ELEMENT without TYPE: is not read")
@@ -204,7 +204,7 @@ def kind_of(kind: str) -> str:
 
 
 def moved(points: NDArray[np.float64], moves: list[list[float]]) -> NDArray[np.float64]:
-    """The points of an instance: moved by the first line of its data, turned by the second."""
+    """Move the points of an instance: shifted by its first line of data, turned by the second."""
     if len(moves) > 2 or any(
         len(row) not in n for row, n in zip(moves, ((1, 2, 3), (7,)), strict=False)
     ):

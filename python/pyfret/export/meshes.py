@@ -79,7 +79,7 @@ def read_mesh(path: str | os.PathLike[str]) -> Mesh:
 
 
 def joined(parts: list[Part], path: Path) -> Mesh:
-    """The parts of a file as one mesh."""
+    """Join the parts of a file to one mesh."""
     names: list[str] = []
     points: list[NDArray[np.float64]] = []
     volumes: dict[int, list[NDArray[np.int64]]] = {}
@@ -115,7 +115,7 @@ def joined(parts: list[Part], path: Path) -> Mesh:
 
 
 def faces_in_plane(mesh: Mesh, frame: Frame) -> list[NDArray[np.int64]]:
-    """Faces of the elements that lie in the plane of the contact, rows of node indices."""
+    """Return the faces of elements that lie in the plane of the contact, rows of node indices."""
     height = frame.contact_place(mesh.points)[:, 2]
     extent = np.ptp(frame.contact_place(mesh.points), axis=0).max()
     inside = np.abs(height) <= IN_PLANE * extent

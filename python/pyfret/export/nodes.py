@@ -38,7 +38,7 @@ NODES = (3, 4, 6, 8)
 
 
 def checked(rows: ArrayLike, nodes: int) -> NDArray[np.int64]:
-    """The nodes of faces of one kind; a ValueError for what is none."""
+    """Return the nodes of faces of one kind; a ValueError if an index is no node."""
     node_rows = np.asarray(plain(rows, "faces"), dtype=np.int64)
     if node_rows.size and (node_rows.ndim != 2 or node_rows.shape[1] not in NODES):
         raise ValueError(
@@ -170,7 +170,7 @@ def loads(
 
 
 def _corners(rows: NDArray[np.int64]) -> int:
-    """How many corners faces with so many nodes have."""
+    """Return how many corners a face with so many nodes has."""
     count = rows.shape[-1]
     if count not in (3, 4, 6, 8):
         raise ValueError(f"faces of {count} nodes: must have 3, 6, 4 or 8")
@@ -178,6 +178,7 @@ def _corners(rows: NDArray[np.int64]) -> int:
 
 
 def _sides(at: NDArray[np.float64], rows: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Return the vectors along the sides of faces."""
     corners = at[rows[:, : _corners(rows)]]
     return np.asarray(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2))
 
@@ -190,7 +191,7 @@ def _give(
     row: NDArray[np.int64],
     corners: NDArray[np.float64],
 ) -> None:
-    """Give the forces at the places in a face, which no other face carries, to its nodes."""
+    """Distribute the forces at places in a face, which no other face carries yet, to its nodes."""
     corners = corners[: _corners(row)]
     low, high = corners.min(axis=0), corners.max(axis=0)
     room = OUTSIDE * (high - low)
@@ -207,6 +208,7 @@ def _give(
 
 
 def _is_inside(local: NDArray[np.float64], corners: int) -> NDArray[np.bool_]:
+    """Return which places lie in the face, by their coordinates in it."""
     if corners == 3:
         areas = np.column_stack([local, 1.0 - local.sum(axis=1)])
         return np.asarray((areas >= -OUTSIDE).all(axis=1))
@@ -214,7 +216,7 @@ def _is_inside(local: NDArray[np.float64], corners: int) -> NDArray[np.bool_]:
 
 
 def _local(place: NDArray[np.float64], corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Coordinates in a face: of areas in a triangle, -1 to 1 in a quadrilateral."""
+    """Return coordinates in a face: of areas in a triangle, -1 to 1 in a quadrilateral."""
     if len(corners) == 3:
         edges = np.column_stack([corners[1] - corners[0], corners[2] - corners[0]])
         return np.linalg.solve(edges, (place - corners[0]).T).T
@@ -231,7 +233,7 @@ def _local(place: NDArray[np.float64], corners: NDArray[np.float64]) -> NDArray[
 
 
 def _shapes(local: NDArray[np.float64], nodes: int) -> NDArray[np.float64]:
-    """Shape functions of faces with straight sides, shape (nodes, places)."""
+    """Compute the shape functions of faces with straight sides, shape (nodes, places)."""
     r, s = local.T
     if nodes in (3, 6):
         areas = np.array([1.0 - r - s, r, s])

@@ -16,7 +16,7 @@ TOUCHING = re.compile(
 
 
 def number(text: str) -> float:
-    """A number, also with a D for the exponent or without a letter; a ValueError if it is none."""
+    """Read a number, also with a D for the exponent or without a letter; else a ValueError."""
     word = text.strip()
     if not re.fullmatch(NUMBER, word):
         raise ValueError(f"{word!r} is no number")
@@ -30,9 +30,9 @@ def number(text: str) -> float:
 
 
 def numbers(text: str) -> list[float]:
-    """The numbers of columns that may touch one another, all of the text.
+    """Read the numbers of columns that may touch each other.
 
-    A ValueError where something else stands there, such as the stars of a column too narrow.
+    A ValueError if something else is there, such as the stars of a column that is too narrow.
     """
     numbers, at = [], 0
     text = text.rstrip()

@@ -137,7 +137,7 @@ def compliance(
 def _at_contact(
     points: NDArray[np.float64], values: NDArray[np.float64], frame: Frame
 ) -> NDArray[np.float64]:
-    """A field at the middle of the grid, from the nodes around."""
+    """Interpolate a field from the nodes around to the middle of the grid."""
     distance = np.linalg.norm(points - np.asarray(frame.origin), axis=1)
     near = np.argsort(distance, kind="stable")[:NEAREST]
     extent = np.ptp(points, axis=0).max()

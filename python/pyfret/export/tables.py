@@ -32,7 +32,7 @@ STRESSES = ("s_xx", "s_yy", "s_zz", "s_xy", "s_xz", "s_yz")
 
 
 def body_sign(body_number: int) -> float:
-    """How a traction on body 2 acts on a body."""
+    """Return the sign of tractions on a body: 1 for body 2, -1 for body 1."""
     if body_number not in (1, 2):
         raise ValueError(f"body_number = {body_number}: must be 1 or 2")
     return 1.0 if body_number == 2 else -1.0
@@ -41,7 +41,7 @@ def body_sign(body_number: int) -> float:
 def cells_of(
     state: State, margin: int = 0
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Places x, y [m] of the cells of the contact and `margin` more, and p, and (q_x, q_y) [Pa]."""
+    """Return x, y [m], p, and (q_x, q_y) [Pa] of the cells of the contact and a `margin`."""
     d = state.dataset
     p, q_x, q_y = (d[name].values for name in TRACTIONS)
     loaded = (p != 0.0) | (q_x != 0.0) | (q_y != 0.0)
@@ -203,7 +203,7 @@ def _write(
     *,
     end: str = "",
 ) -> None:
-    """Write a table at a free place."""
+    """Write a table to a file that is not there yet."""
     with Path(path).open("x", encoding="ascii", newline="\n") as file:
         if head:
             file.write(head + "\n")

@@ -73,7 +73,7 @@ def cycle_section(result: Run, section: Section) -> _core.CycleSection:
 
 
 def shared_stress(result: Run, kept: NDArray[np.int64], body_number: int) -> _core.StressCache:
-    """Return the stress below a body over increments, which all questions about a run share.
+    """Return the stress below a body over increments, shared by all questions about a run.
 
     A run keeps the stress of one body and one cycle, at most 192 MB.
     """

@@ -34,9 +34,9 @@ TOGETHER = 32
 
 @quantities
 def cycle_increments(result: Run, cycle: int | None = -1) -> NDArray[np.int64]:
-    """Give the kept increments of a closed cycle of the load path, from 1; all of them for None.
+    """Return the kept increments of a closed cycle of the path, from 1; all of them for None.
 
-    Raises a ValueError for a missing cycle, or one with fewer than two kept increments.
+    A ValueError for a missing cycle, or one with fewer than two kept increments.
     """
     saved = np.asarray(result.dataset.saved_increment.values)
     kept = saved if cycle is None else saved[_is_in_cycle(result, saved, cycle)]
@@ -49,7 +49,7 @@ def cycle_increments(result: Run, cycle: int | None = -1) -> NDArray[np.int64]:
 
 
 def moment_before(result: Run, kept: NDArray[np.int64]) -> int | None:
-    """Give the increment at which the branch of the first kept one begins, if it was kept."""
+    """Return the increment at which the branch of the first kept one begins; None if not kept."""
     branch = result.dataset.branch_of_increment
     first = int(branch.sel(increment=int(kept[0])))
     begin = int(result.dataset.increment.values[(branch == first).values][0])

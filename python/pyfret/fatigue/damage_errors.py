@@ -174,6 +174,7 @@ def averaged_states(
     places = [int(np.flatnonzero(saved == n)[-1]) for n in increments]
 
     def averaged(field: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
+        """Average a field over pairs of cells along an axis, the pairs beginning at `pairing`."""
         size = field.shape[axis]
         if size == 1:
             return field
@@ -184,6 +185,7 @@ def averaged_states(
         return np.moveaxis(means[pairing : pairing + size], 0, axis)
 
     def means(name: str) -> list[NDArray[np.float64]]:
+        """Return the averaged fields of a name for all increments."""
         fields = (variables[name].isel(saved=n).values.astype(float) for n in places)
         return [np.ascontiguousarray(averaged(averaged(field, 0), 1)) for field in fields]
 

@@ -56,7 +56,7 @@ class DamageLaw:
             )
 
     def text(self) -> str:
-        """The law in words."""
+        """Return the law in words."""
         slope = "" if self.exponent is None else f", exponent {format_number(self.exponent)}"
         return f"{LAWS[self.below]}; knee at {_core.rough(self.knee)} cycles{slope}"
 

@@ -51,7 +51,7 @@ class OverDistance(Saveable, Labelled, Figured):
         method: str,
         critical: float | None,
     ) -> OverDistance:
-        """Put the ranges of several distances together."""
+        """Collect the ranges of several distances L [m] in a table."""
         about = {"units": "m", "long_name": "distance that the stress is averaged over"}
         dataset = xr.Dataset(coords={"L": ("L", L, about)}, attrs={"method": method})
         for key, long_name, values in (
@@ -90,7 +90,7 @@ class OverDistance(Saveable, Labelled, Figured):
         return str(self.dataset.attrs.get("notes", "")).splitlines()
 
     def rows(self) -> list[list[str]]:
-        """A line for every distance: L, low, best, high."""
+        """Return a line for every distance: L, low, best, high."""
         d, lives = self.dataset, self.margin.name == "life"
         columns = (d.low, self.margin, d.high)
         return [

@@ -71,7 +71,7 @@ class LoadFactors(Labelled, Figured):
         self.layers = list(layers)
 
     def _check(self, of: object) -> None:
-        """Refuse what is no name of a factor."""
+        """Refuse a text that is no name of a factor."""
         if not isinstance(of, str) or of not in get_args(Factor):
             shown = repr(of) if isinstance(of, str) else f"<{type(of).__name__}>"
             raise ValueError(f"of = {shown}: must be one of {', '.join(get_args(Factor))}")
@@ -82,7 +82,7 @@ class LoadFactors(Labelled, Figured):
         return 1.0 / self.dataset[of]
 
     def least_of(self, layer: int | str, of: Factor = "von_mises") -> Extremum:
-        """Give the least factor of a layer; a ValueError where it is not judged."""
+        """Return the least factor of a layer and its place; a ValueError if it is not judged."""
         self._check(of)
         if isinstance(layer, str):
             coatings = len(self.dataset.attrs.get("interfaces", ()))
@@ -92,7 +92,7 @@ class LoadFactors(Labelled, Figured):
         return self._least[layer, of]
 
     def _search_least(self, layer: int, of: Factor) -> Extremum:
-        """Search the least factor of a layer."""
+        """Search the least factor of a layer, below the section and between its samples."""
         use_of_layer = self.utilisation(of).isel(depth=self.dataset.layer.values == layer)
         values = use_of_layer.values.reshape(
             -1, use_of_layer.shape[2] if use_of_layer.ndim > 2 else 1
@@ -121,7 +121,7 @@ class LoadFactors(Labelled, Figured):
         )
 
     def least(self, of: Factor = "von_mises") -> Extremum:
-        """Give the least factor of all layers."""
+        """Return the least factor of all layers and its place."""
         return min(
             (self.least_of(layer, of) for layer in self.layers), key=lambda least: least.value
         )

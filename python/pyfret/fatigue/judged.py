@@ -115,7 +115,7 @@ class Life(Saveable, Labelled, Figured):
         return self.dataset[margin_name(self._assessments)[0]]
 
     def extrapolated(self) -> NDArray[np.float64]:
-        """Give the margin of every point, lives beyond the tests by the curve: for contours."""
+        """Return the margin of every point for contours, lives beyond the tests by the curve."""
         margin, value = self.margin.values.copy(), self.dataset.value.values
         for n, row in enumerate(self.dataset.layer.values):
             assessment = self._assessments[int(row)]
@@ -168,7 +168,7 @@ class Life(Saveable, Labelled, Figured):
         return layer_index(layer, coatings, range(coatings + 1), self._materials)
 
     def worst_of(self, layer: int | str) -> Extremum:
-        """Give the worst point of a layer; a ValueError where it is not judged."""
+        """Return the worst point of a layer; a ValueError if it is not judged."""
         layer = self._layer(layer)
         if layer not in self._worst:
             value_of_layer = self.dataset.value.isel(depth=self.dataset.layer.values == layer)
@@ -234,7 +234,7 @@ class Life(Saveable, Labelled, Figured):
 
     @quantities
     def least_margin(self, layers: Sequence[int] | None = None) -> LifeRange:
-        """Give the smallest margin of some layers (default: all that are judged)."""
+        """Return the smallest margin of some layers (default: all that are judged)."""
         chosen = self.layers if layers is None else items(layers, "layers")
         if not chosen:
             raise ValueError("layers = []: must name a layer")
@@ -404,7 +404,7 @@ class Life(Saveable, Labelled, Figured):
         return {**self.__dict__, "_sections": [], "_parts": parts, "_history": None}
 
     def _repr_html_(self) -> str:
-        """The worst point of every layer, for notebooks."""
+        """Return a table of the worst point of every layer, for notebooks."""
         name, _ = margin_name(self._assessments)
         rows, coatings = [], len(self.dataset.attrs["interfaces"])
         for layer in self.layers:

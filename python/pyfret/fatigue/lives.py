@@ -178,6 +178,7 @@ def lives(
     notes.extend(note_on_yield(result, layer_materials, z, depths[1], first, section))
 
     def life_by(name: CriterionName) -> Life:
+        """Judge by one criterion."""
         whole = concat_sections(result, first, labelled_sections[name]).assign_attrs(criterion=name)
         return Life(
             whole,
@@ -188,6 +189,7 @@ def lives(
         )
 
     def history_of_worst(worst: Extremum, of: HistoryKind) -> NDArray[np.float64]:
+        """Return the history of stress or plastic strain at a worst point."""
         stresses = history(
             result,
             [worst.z],

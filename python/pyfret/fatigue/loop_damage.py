@@ -94,7 +94,7 @@ class JudgedSection:
     def _parts(
         self, stress: xr.DataArray, states: LoopStates, *, bounded: bool
     ) -> Iterator[tuple[int, NDArray[np.float64], Mapping[str, NDArray[np.float64]]]]:
-        """Judge the depths of layers that have a material, one row of places at a time."""
+        """Yield places and damage of the layers that have a material, one depth at a time."""
         kept = np.searchsorted(stress.increment.values, states.increments)
         values = stress.values[kept]
         counts = np.ascontiguousarray(states.rows[:, 2])
@@ -219,7 +219,7 @@ class JudgedSection:
         )
 
     def notes_on(self, dataset: xr.Dataset) -> list[str]:
-        """Notes on loops without tension, and on the order of the loops."""
+        """Return notes on loops without tension, and on the order of the loops."""
         last, first = self.order_range(dataset)
         notes = [ORDER]
         if first > (1.0 + LEAST_DIFFERENCE) * last:

@@ -73,6 +73,7 @@ class CyclicResponse(NamedTuple):
 
     @property
     def _rubs(self) -> bool:
+        """Return whether friction dissipates energy, so that plastic work is compared with it."""
         return bool(self.friction_work and self.friction_work[-1] > 0.0)
 
 

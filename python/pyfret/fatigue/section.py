@@ -87,7 +87,7 @@ class Section:
 
     @property
     def places(self) -> float | Sequence[float]:
-        """The place or places on that axis [m]; 0 in another direction."""
+        """Return the place or places on that axis [m]; 0 in another direction."""
         if self.azimuth is not None:
             return 0.0
         places = self.x if self.y is None else self.y
@@ -107,7 +107,7 @@ class Section:
 
     @property
     def line(self) -> Line:
-        """The line of the surface above the section."""
+        """Return the line of the surface above the section."""
         if self.azimuth is None:
             place = self.place
             return Line(*((place, None) if self.cross_axis == "x" else (None, place)))

@@ -98,7 +98,7 @@ class Loops(HoldsArrays):
 
     @property
     def energies(self) -> NDArray[np.float64]:
-        """Energy of every whole cycle [J]: area of its loop, closed by a straight line."""
+        """Return the energy of every whole cycle [J]: the area of its loop, closed by a line."""
         areas = []
         for n in range(int(self.cycle.max()) + 1):
             inside = self.cycle == n
@@ -136,7 +136,7 @@ class Loops(HoldsArrays):
 
     @property
     def sliding_slope(self) -> float | None:
-        """Slope of the ends of the branches [N/m], mean; None if the loops do not slide."""
+        """Return the mean slope of the ends of branches [N/m]; None if the loops do not slide."""
         ends, flanks = [], []
         for n in range(int(self.cycle.max()) + 1):
             for down in (False, True):
@@ -296,7 +296,7 @@ class Scar(HoldsArrays):
         body_number: int = 2,
         noise: float | None = None,
     ) -> Scar:
-        """A profile of points; those with a missing value are left out."""
+        """Make a profile of points; points with a missing value are left out."""
         positions, worn = together(x=x, depth=depth, holes=True)
         low, high = float(worn.min()), float(worn.max())
         if -low > 2.0 * max(high, 0.0):

@@ -24,7 +24,7 @@ SHOWN = {"[m]": (1e6, "[um]"), "[N]": (1.0, "[N]")}
 
 
 def shown(label: str, values: NDArray[np.float64]) -> tuple[NDArray[np.float64], str]:
-    """Values in the unit of a figure, and its label."""
+    """Return values in the unit of a figure, and their label."""
     for unit, (factor, name) in SHOWN.items():
         if label.endswith(unit):
             return factor * values, label.replace(unit, name)
@@ -59,7 +59,7 @@ def curves(
 
 @styled
 def residuals(of: Measured, left_over: NDArray[np.float64], ax: Axes | None = None) -> Axes:
-    """Measured less computed; what is left should scatter about zero without a pattern."""
+    """Draw measured less computed values, which should scatter about zero without a pattern."""
     ax = axes(ax)
     along, label = shown(of.labels[0], of.along)
     ax.set_xlabel(label)

@@ -71,7 +71,7 @@ class Model(Measured):
 
 
 def model_of(data: Data) -> Model:
-    """The model of a kind of data."""
+    """Build the model of a kind of data."""
     for kind, make in ((Loops, loops_model), (Indentation, indentation_model), (Scar, scar_model)):
         if isinstance(data, kind):
             return make(data)  # type: ignore[arg-type]
@@ -84,7 +84,7 @@ def model_of(data: Data) -> Model:
 
 
 def interpolate_smoothly(x: NDArray[np.float64], y: NDArray[np.float64]) -> Curve:
-    """A smooth curve through points that does not swing between them, straight beyond its ends."""
+    """Return a smooth curve through points without overshoot, straight beyond its ends."""
     interpolate = needed("scipy.interpolate", "fit")
     order = np.argsort(x, kind="stable")
     x, y = x[order], y[order]
@@ -94,6 +94,7 @@ def interpolate_smoothly(x: NDArray[np.float64], y: NDArray[np.float64]) -> Curv
     ends = [(x[k], y[k], float(curve(x[k], 1))) for k in (0, -1)]
 
     def extended(where: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Evaluate the curve, by straight lines beyond its ends."""
         y = np.asarray(curve(where))
         (low, y_low, s_low), (high, y_high, s_high) = ends
         y = np.where(where < low, y_low + s_low * (where - low), y)
@@ -119,6 +120,7 @@ def loops_model(data: Loops) -> Model:
     tilts = data.tilt if data.tilt is not None else data.sliding_slope is not None
 
     def predict(scene: Scene, _: Mapping[str, float], finer: float) -> Predicted:
+        """Solve the cycle on the scene, with increments `finer` times as many."""
         W = data.W if data.W is not None else normal_force(scene)
         path = LoadPath.start().normal(W, increments=1).rig(scene.path.rig_stiffness)
         for to, ways in ((reach, 0.5), (-reach, 1.0), (reach, 1.0)):
@@ -133,6 +135,7 @@ def loops_model(data: Loops) -> Model:
             curves.append(interpolate_smoothly(shift[ways], T[ways]))
 
         def predicted(offsets: NDArray[np.float64], moved: float = 0.0) -> NDArray[np.float64]:
+            """Return the force at the measured shifts, with offsets and moved turns."""
             values_of_offsets = dict(zip(offset_scales, offsets, strict=True))
             where = (
                 data.delta
@@ -167,9 +170,9 @@ def loops_model(data: Loops) -> Model:
 
 
 def reach_of_turns(data: Loops, *, drifts: bool) -> tuple[float, float] | None:
-    """Half the way between lower and upper turns, the same in all cycles, and its error [m].
+    """Fit half the distance of the turns, the same in all cycles, and its error [m].
 
-    Least squares of middle, reach and drift; None where the record has too few turns.
+    Least squares of middle, reach and drift; None if the record has too few turns.
     """
     if data.turns is None:
         return None
@@ -191,7 +194,7 @@ def reach_of_turns(data: Loops, *, drifts: bool) -> tuple[float, float] | None:
 
 
 def drift_of_turns(delta: NDArray[np.float64], time: NDArray[np.float64]) -> float:
-    """Slope of the shift at its turns over time, the same for both ends of the loop [m]."""
+    """Fit the slope of the turns over time, the same for both ends of the loop [m/s]."""
     # The ends of a record need not be turns.
     turns = [n for n in find_turns(delta) if 0 < n < delta.size - 1]
     if len(turns) < 3:
@@ -202,10 +205,11 @@ def drift_of_turns(delta: NDArray[np.float64], time: NDArray[np.float64]) -> flo
 
 
 def indentation_model(data: Indentation) -> Model:
-    """An indentation curve: the approach at the measured forces."""
+    """Build the model of an indentation curve: the approach at the measured forces."""
     W_max = float(data.W.max())
 
     def predict(scene: Scene, _: Mapping[str, float], finer: float) -> Predicted:
+        """Solve the indentation to the largest force."""
         path = LoadPath.start()
         steps = np.linspace(0, 1, round(INDENTATION * finer) + 1)[1:] ** 1.5
         for part in steps:
@@ -219,6 +223,7 @@ def indentation_model(data: Indentation) -> Model:
         frame = data.W if data.frame else np.zeros_like(data.W)
 
         def predicted(offsets: NDArray[np.float64], _: float = 0.0) -> NDArray[np.float64]:
+            """Return the approach at the measured forces, with the offset and the frame."""
             return np.asarray(approach + offsets[0] + offsets[-1] * frame)
 
         return predicted
@@ -234,10 +239,11 @@ def indentation_model(data: Indentation) -> Model:
 
 
 def scar_model(data: Scar) -> Model:
-    """A scar: the worn depth along x at y = 0, at the end of a run of wear."""
+    """Build the model of a scar: the worn depth along x at y = 0, at the end of a run of wear."""
     half = float(np.ptp(data.x[data.depth > 0.1 * data.depth.max()])) / 2
 
     def predict(scene: Scene, values: Mapping[str, float], finer: float) -> Predicted:
+        """Run the wear with `finer` times as many jumps."""
         arguments = jumping(wear_arguments(data.wear, values), finer)
         d = growing(scene, lambda s: wear.solve(s, progress=False, **arguments)).dataset
         fields = {1: d.worn1, 2: d.worn2, 0: d.worn1 + d.worn2}
@@ -245,6 +251,7 @@ def scar_model(data: Scar) -> Model:
         x, depth = d.x.values, profile.values
 
         def predicted(offsets: NDArray[np.float64], _: float = 0.0) -> NDArray[np.float64]:
+            """Return the depth at the measured places, moved by the offsets."""
             return np.asarray(np.interp(data.x - offsets[0], x, depth, left=0.0, right=0.0))
 
         return predicted
@@ -256,9 +263,10 @@ def scar_model(data: Scar) -> Model:
 
 
 def lives_model(data: Lives) -> Model:
-    """Lives: ln of the cycles to a part of the thickness in each test."""
+    """Build the model of lives: ln of the cycles to a part of the thickness in each test."""
 
     def predict(scene: Scene, values: Mapping[str, float], finer: float) -> Predicted:
+        """Run the wear of every test."""
         lives = []
         for n, settings in enumerate(data.settings):
             arguments = jumping(wear_arguments(data.wear, {**values, **split(settings)[1]}), finer)
@@ -271,6 +279,7 @@ def lives_model(data: Lives) -> Model:
         logs = np.log(lives)
 
         def predicted(_: NDArray[np.float64], __: float = 0.0) -> NDArray[np.float64]:
+            """Return the logarithms of the cycles."""
             return logs
 
         return predicted
@@ -283,7 +292,7 @@ def lives_model(data: Lives) -> Model:
 
 
 def jumping(arguments: dict[str, Any], finer: float) -> dict[str, Any]:
-    """The arguments of a run of wear with so many times the jumps."""
+    """Return the arguments of a run of wear with `finer` times as many jumps."""
     counted = [key for key in ("jumps", "explicit_jumps") if arguments.get(key) is not None]
     if finer == 1:
         return arguments
@@ -293,7 +302,7 @@ def jumping(arguments: dict[str, Any], finer: float) -> dict[str, Any]:
 
 
 def growing(scene: Scene, run: Callable[[Scene], T]) -> T:
-    """Run a scene on a grid that grows where the contact leaves it."""
+    """Run a scene; where the contact leaves the grid, run it again on a larger one."""
     for _ in range(GROWTHS):
         try:
             return run(scene)
@@ -303,7 +312,7 @@ def growing(scene: Scene, run: Callable[[Scene], T]) -> T:
 
 
 def normal_force(scene: Scene) -> float:
-    """The largest normal force of the scene's path [N]."""
+    """Return the largest normal force of the path [N]."""
     W = max((float(branch.W or 0.0) for branch in scene.path.branches), default=0.0)
     if not W > 0:
         raise ValueError("W: no normal force in the path of the scene: give that of the loops, W=")
@@ -317,7 +326,7 @@ def split(settings: Mapping[str, float]) -> tuple[dict[str, float], dict[str, fl
 
 
 def wear_arguments(given: Mapping[str, Any], values: Mapping[str, float]) -> dict[str, Any]:
-    """The arguments of a run of wear with values such as ``wear.body2.alpha`` put in."""
+    """Return the arguments of a run of wear with values such as ``wear.body2.alpha`` put in."""
     arguments = dict(given)
     for key, value in split(values)[1].items():
         name, _, law_key = key.removeprefix("wear.").partition(".")

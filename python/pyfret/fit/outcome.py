@@ -158,7 +158,7 @@ class FitResult(Saveable, HoldsArrays):
 
     @property
     def dataset(self) -> xr.Dataset:
-        """Best values and 95 % confidence over ``unknown``, and all that :meth:`save` keeps."""
+        """Return best values and 95 % confidence over ``unknown``, and what is saved."""
         arrays: dict[str, NDArray[Any]] = {}
         tree = json.dumps(packed(self, arrays))
         unknown_columns = {
@@ -181,7 +181,7 @@ class FitResult(Saveable, HoldsArrays):
 
     @property
     def values(self) -> dict[str, float]:
-        """Values of the unknowns."""
+        """Return the best values by the names of the unknowns."""
         return {key: unknown.value for key, unknown in self.known.items()}
 
     def plot(self, *, ax: Axes | None = None, data: int = 0, **options: Any) -> Drawn:
@@ -199,7 +199,7 @@ class FitResult(Saveable, HoldsArrays):
 
     @property
     def doubts(self) -> list[str]:
-        """Sentences on what these data cannot determine."""
+        """List what these data cannot determine, a sentence each."""
         sentences = []
         keys = list(self.known)
         for (i, key_i), (j, key_j) in combinations(enumerate(keys), 2):

@@ -34,14 +34,14 @@ Solved = Callable[["list[NDArray[np.float64]]"], "list[NDArray[np.float64]]"]
 
 
 def monomials(z: NDArray[np.float64]) -> NDArray[np.float64]:
-    """1, z, and products of two, of points in rows."""
+    """Return 1, z and the products of two components of z, for points in rows."""
     n = z.shape[1]
     squares = [z[:, i] * z[:, j] for i in range(n) for j in range(i, n)]
     return np.column_stack([np.ones(len(z)), z, *squares])
 
 
 def design(n: int) -> NDArray[np.float64]:
-    """Points of norm one that determine a quadratic of n unknowns, besides the middle."""
+    """Return points of norm one that determine a quadratic of n unknowns, besides the middle."""
     axes = np.vstack([np.eye(n), -np.eye(n)])
     pairs = [
         (s * axes[i] + t * axes[j]) / np.sqrt(2)
@@ -86,10 +86,11 @@ def sampled(
     root = ways * np.minimum(np.sqrt(np.maximum(values, 0.0)), 0.25)
 
     def to_u(z: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Convert points z of the posterior's axes to u, the unknowns in their ranges."""
         return np.asarray(best + z @ root.T)
 
     def pull_inside(points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Points moved towards the middle until u lies in its range."""
+        """Move points towards the middle until u lies in its range."""
         for k, point in enumerate(points):
             while np.any((to_u(point) < 0) | (to_u(point) > 1)):
                 point = points[k] = 0.8 * point
@@ -109,6 +110,7 @@ def sampled(
     basis = np.linalg.qr(gauges)[0] if gauges.shape[1] else np.zeros((len(measured), 0))
 
     def unexplained(rows: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the part of each row that the basis does not explain."""
         return rows - (rows @ basis) @ basis.T
 
     terms[0] -= measured
@@ -116,6 +118,7 @@ def sampled(
     gram, degrees = unexplained_terms @ unexplained_terms.T, len(measured) - gauges.shape[1]
 
     def log_probability(z: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the logarithm of the probability up to a constant; -inf outside of the ranges."""
         u, rows = to_u(z), monomials(z)
         squares = np.maximum(np.einsum("ki,ij,kj->k", rows, gram, rows), 1e-300)
         log_likelihood = -0.5 * squares / noise**2 if noise else -0.5 * degrees * np.log(squares)

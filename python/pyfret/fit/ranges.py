@@ -41,19 +41,19 @@ class SearchRange:
         return STEP / self.width if self.by_log else STEP
 
     def value(self, u: float) -> float:
-        """The unknown at u."""
+        """Return the unknown at u, the place in its range."""
         if self.by_log:
             return float(self.low * np.exp(u * self.width))
         return float(self.low + u * self.width)
 
     def to_u(self, value: float) -> float:
-        """Return the u of a value."""
+        """Return the place u of a value in its range."""
         offset = np.log(value / self.low) if self.by_log else value - self.low
         return float(offset / self.width)
 
 
 def ranges(unknown: Mapping[str, tuple[float, ...]]) -> list[SearchRange]:
-    """The ranges of the unknowns, checked; ends that are hardly meant are warned of."""
+    """Check the ranges of the unknowns; implausible ends get a warning."""
     if not unknown:
         raise ValueError('unknown: none, give some, such as {"mu": (0.1, 1.5)}')
     search_ranges = []

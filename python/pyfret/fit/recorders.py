@@ -140,6 +140,7 @@ def _tdms_reader(path: Path, group: str, name: str) -> Callable[[], Any]:
     """Return a function that reads one channel of a TDMS file, scaled."""
 
     def read() -> Any:
+        """Read the samples."""
         nptdms = needed("nptdms", "rigs")
         with nptdms.TdmsFile.open(path) as file:
             return file[group][name].read_data()
@@ -200,6 +201,7 @@ def channels_of_hdf5(path: Path) -> Iterator[Channel]:
         datasets: list[tuple[str, Any, str, Any]] = []
 
         def visit(name: str, node: Any) -> None:
+            """Collect an array with its groups."""
             if not isinstance(node, h5py.Dataset) or name.startswith("#"):
                 return
             unit = next((node.attrs[key] for key in ("units", "unit") if key in node.attrs), "")
@@ -233,6 +235,7 @@ def _hdf5_reader(path: Path, name: str, slot: Any) -> Callable[[], Any]:
     """Return a function that reads a dataset, or a part of it."""
 
     def read() -> Any:
+        """Read the samples."""
         with needed("h5py", "rigs").File(path, "r") as file:
             values = file[name][() if slot is None else slot]
         return np.squeeze(values)

@@ -148,28 +148,28 @@ class Search:
 
     @property
     def gauges(self) -> int:
-        """Number of offsets."""
+        """Return the number of offsets of gauges that are fitted."""
         return sum(len(model.offsets) for model in self.models)
 
     def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Ends of what is searched."""
+        """Return the lower and upper ends of unknowns and offsets."""
         n = len(self.ranges)
         low = np.r_[np.zeros(n), np.full(self.gauges, -1.0)]
         return low, np.r_[np.ones(n), np.full(self.gauges, 1.0)]
 
     def values(self, u: Sequence[float] | NDArray[np.float64]) -> dict[str, float]:
-        """Values of the unknowns."""
+        """Return the values of the unknowns at u, their places in the ranges."""
         return {r.key: r.value(float(x)) for r, x in zip(self.ranges, u, strict=False)}
 
     def predictions(self, scene: Scene, u: tuple[float, ...], finer: float = 1.0) -> list[Any]:
-        """Solve all models, with so many times their increments."""
+        """Solve all models at u, with `finer` times their increments."""
         values = self.values(u)
         of_scene, _ = split(values)
         changed = with_values(scene, of_scene) if of_scene else scene
         return [model.predict(changed, values, finer) for model in self.models]
 
     def solved(self, points: list[tuple[float, ...]]) -> None:
-        """Solve at points that are not known yet, side by side."""
+        """Solve at points that are not known yet, in parallel."""
         fresh = [u for u in dict.fromkeys(points) if u not in self.known]
         if not fresh:
             return
@@ -183,7 +183,7 @@ class Search:
         self.known |= dict(zip(fresh, done, strict=True))
 
     def weights(self) -> list[float]:
-        """Noise that each set of data is divided by.
+        """Return the noise that each set of data is divided by.
 
         Raises
         ------
@@ -207,7 +207,7 @@ class Search:
     def computed(
         self, predictions: list[Any], gauges: NDArray[np.float64], moved: float = 0.0
     ) -> list[NDArray[np.float64]]:
-        """Return the predicted measurements."""
+        """Return the predicted measurements with offsets of the gauges."""
         predicted, first = [], 0
         for model, predict in zip(self.models, predictions, strict=True):
             offsets = gauges[first : first + len(model.offsets)] * model.scales
@@ -223,19 +223,19 @@ class Search:
         return np.concatenate([part / noise for part, noise in parts])
 
     def parted(self, x: NDArray[np.float64]) -> tuple[tuple[float, ...], NDArray[np.float64]]:
-        """Unknowns and offsets."""
+        """Split a vector into the unknowns and the offsets."""
         n = len(self.ranges)
         return tuple(float(u) for u in x[:n]), x[n:]
 
     def residual(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Computed less measured, over noise."""
+        """Return computed less measured values, over the noise."""
         u, gauges = self.parted(x)
         self.solved([u])
         measured = [m.measured / w for m, w in zip(self.models, self.weights(), strict=True)]
         return self.weighted(self.known[u], gauges) - np.concatenate(measured)
 
     def jacobian(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Derivatives of the residual, by differences."""
+        """Return the derivatives of the residual, by differences."""
         u, gauges = self.parted(x)
         stepped = []
         for k, r in enumerate(self.ranges):
@@ -256,7 +256,7 @@ class Search:
         return np.stack(columns, axis=1)
 
     def outcome(self, x: NDArray[np.float64], *, converged: bool) -> FitResult:
-        """Values, confidence and correlation at the end."""
+        """Return values, confidence and correlation at the end of the search."""
         stats = needed("scipy.stats", "fit")
         u, gauges = self.parted(x)
         n = len(self.ranges)
@@ -333,6 +333,7 @@ class Search:
         before = self.solves
 
         def solved(points: list[NDArray[np.float64]]) -> list[NDArray[np.float64]]:
+            """Solve at points of the posterior; return their residuals."""
             places = [tuple(float(v) for v in point) for point in points]
             self.solved(places)
             return [self.weighted(self.known[point], gauges) for point in places]
@@ -375,6 +376,7 @@ class Search:
         least = float(residual @ residual)
 
         def risen(to: float) -> float:
+            """Return the root of the rise of the misfit at a distance along the direction."""
             there = x + to * along
             there[: len(self.ranges)] = np.clip(there[: len(self.ranges)], 0.0, 1.0)
             residual = self.residual(there)
@@ -383,6 +385,7 @@ class Search:
             return float(np.sqrt(max(float(unfitted @ unfitted) - least, 0.0)))
 
         def end(sign: float, room: float) -> float:
+            """Return the distance to the end of the confidence interval, at most `room`."""
             if linear >= room:
                 return linear
             rise = max(risen(sign * linear), 1e-3 * rise_wanted)
@@ -399,10 +402,10 @@ class Search:
     def solver_errors(
         self, u: tuple[float, ...], gauges: NDArray[np.float64]
     ) -> list[NDArray[np.float64]]:
-        """Changes of what is computed on cells twice as wide and with half of the increments.
+        """Return the changes of the predictions on cells twice as wide and half of the increments.
 
-        Each is more than cells and increments leave themselves. What the record leaves unsure, the
-        turns of a loop, is moved by :data:`SURE` errors.
+        Each is larger than the error of cells and increments. Turns of a loop that the record
+        leaves uncertain are moved by :data:`SURE` errors.
         """
         reference = self.weighted(self.known[u], gauges)
         coarse = self.scene.replace(grid=coarser(self.scene.grid))

@@ -23,7 +23,7 @@ PARTS: dict[str, type] = {
 
 
 def fit_from_dataset(dataset: xr.Dataset) -> FitResult:
-    """The fit of a dataset.
+    """Rebuild a fit from its dataset.
 
     Raises
     ------

@@ -166,19 +166,20 @@ def check_units(place: str, heads: list[str], said: dict[str, str], units: dict[
 
 
 def number(cell: str) -> float:
-    """The number of a cell, with a decimal point or comma."""
+    """Read a cell with a decimal point or comma."""
     if not NUMBER.match(cell):
         raise ValueError(cell)
     return float(cell.replace(",", "."))
 
 
 def find_separator(lines: list[str]) -> str | None:
-    """Find the separator of the columns, None for blanks: it makes numbers of most lines.
+    """Find the separator that makes numbers of most lines; None for blanks.
 
-    A comma parts only where nothing else does as well.
+    A comma counts only if nothing else does as well.
     """
 
     def numeric(separator: str | None) -> tuple[int, int]:
+        """Count the lines, and the cells, that are numbers with a separator."""
         rows = [cells(line, separator) for line in lines[:SAMPLE]]
         whole = sum(len(row) > 1 and all(map(NUMBER.match, row)) for row in rows)
         return whole, sum(map(is_numeric, rows))
@@ -199,7 +200,7 @@ def is_numeric(row: list[str]) -> bool:
 
 
 def first_row(rows: list[list[str]]) -> int | None:
-    """The first row of numbers that the next one goes on from."""
+    """Find the first row of numbers that the next row continues; None if there is none."""
     for n, row in enumerate(rows):
         after = rows[n + 1] if n + 1 < len(rows) else row
         if is_numeric(row) and is_numeric(after) and len(row) == len(after):
@@ -208,7 +209,7 @@ def first_row(rows: list[list[str]]) -> int | None:
 
 
 def cells(line: str, separator: str | None) -> list[str]:
-    """The cells of a line, without quotes."""
+    """Split a line into its cells, without quotes."""
     if separator is not None:
         parts = line.split(separator)
     elif line.startswith(("[", "(")):

@@ -43,6 +43,7 @@ def find_turns(delta: NDArray[np.float64]) -> list[int]:
         return turns
 
     def is_outer(point: int) -> bool:
+        """Return whether a point is near one of the ends of the shift."""
         return abs(float(delta[point]) - 0.5 * (high + low)) > 0.5 * OUTER * (high - low)
 
     # The outermost shift since the last turn, its point or its block, and the sign of the way.
@@ -130,7 +131,7 @@ def turns_between(delta: NDArray[np.float64], turns: list[int]) -> NDArray[np.fl
 
 
 def _refine(delta: NDArray[np.float64], at: NDArray[np.int64], many: int) -> NDArray[np.float64]:
-    """Return the number of the point, shift and error of turns, from `many` points beside each."""
+    """Refine turns by parabolas through `many` points on each side: index, shift and its error."""
     shift = delta[at]
     sign = np.where(shift > delta[at - many], 1.0, -1.0)
     s = np.linspace(-1.0, 1.0, STEPS)

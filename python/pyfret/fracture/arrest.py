@@ -95,7 +95,7 @@ class CrackArrest:
 
     @property
     def growing(self) -> tuple[tuple[float, float], ...]:
-        """Between which first lengths [m] a crack grows, to the longer one of each pair."""
+        """Return the pairs of first lengths [m] between which a crack grows to the longer one."""
         ends = [self.computed[0], *self.crossings, self.computed[1]]
         crossings_before = sum(at < self.start for at in self.crossings)
         grows = self.at_start > 1.0
@@ -143,7 +143,7 @@ class CrackArrest:
         return self._alone() + (f" ({', '.join(marks)})" if marks else "")
 
     def describe_length(self) -> str:
-        """The length at which the crack stops, with its range [um]."""
+        """Return the length at which the crack stops, with its range [um]."""
         if self.length is None:
             return "no length"
         if self.lengths is None:
@@ -176,21 +176,24 @@ class CrackArrest:
         return sentences
 
     def _alone(self) -> str:
+        """Return the sentence on this crack alone."""
         if self.verdict == "stops":
             return f"{WORDS['stops']} at {self.describe_length()}"
         return WORDS[self.verdict]
 
     def _end(self) -> str:
+        """Return the sentence on where it ends."""
         return f", to {um(self.computed[1])}" if self.verdict == "grows" else ""
 
     def _unsure(self) -> str:
+        """Return the sentence on a verdict that the errors could change."""
         if not self.verdicts or self.is_sure:
             return ""
         alternatives = [MAY[verdict] for verdict in self.verdicts if verdict != self.verdict]
         return f" ({UNDECIDED}{': it may ' if alternatives else ''}{' or '.join(alternatives)})"
 
     def _deciding(self) -> list[tuple[float, float | None]]:
-        """The numbers that the verdict follows from, and their errors."""
+        """Return the numbers that the verdict follows from, with their errors."""
         start = (self.at_start, self.at_start_error)
         least = (self.margin, self.margin_error)
         return [start] if self.verdict == "dormant" else [start, least]
@@ -229,7 +232,7 @@ class CrackLife:
         return f"CrackLife({'; '.join([self.describe(), *self.arrest.others()])})"
 
     def why_infinite(self) -> str | None:
-        """Why there is no finite number of cycles."""
+        """Return why there is no finite number of cycles; None if there is."""
         if math.isfinite(self.cycles):
             return None
         if self.arrest.verdict == "dormant":

@@ -232,24 +232,24 @@ class Cycle:
 
     @cached_property
     def increments(self) -> NDArray[np.int64]:
-        """Return the increments."""
+        """Return the kept increments of the cycle."""
         return cycle_increments(self.result, self.cycle)
 
     @cached_property
     def states(self) -> list[State]:
-        """The fields of each."""
+        """Return the state of each increment."""
         return [self.result.at(int(n)) for n in self.increments]
 
     @cached_property
     def largest(self) -> _core.Outline:
-        """The outline of the largest contact of the cycle."""
+        """Return the outline of the largest contact of the cycle."""
         outlines = [now.outline for now in self.states if now.outline is not None]
         if not outlines:
             raise ValueError("no increment of the cycle has contact: give the place x of the crack")
         return max(outlines, key=lambda outline: sum(spot[2] for spot in outline.spots))
 
     def outermost(self, azimuth: float) -> tuple[float, float]:
-        """The outermost places in a plane that the contact reaches in the cycle [m]."""
+        """Return the outermost places that the contact reaches in the cycle, in a plane [m]."""
         sin, cos = np.sin(azimuth), np.cos(azimuth)
         outlines = [now.outline for now in self.states if now.outline is not None]
         if not outlines:
@@ -278,7 +278,7 @@ class Cycle:
 
     @property
     def lengths(self) -> NDArray[np.float64]:
-        """The lengths of cracks by default [m]."""
+        """Return the default lengths of cracks [m]."""
         shortest = self.shortest(SHORTEST)
         longest = max(LONGEST * self.half_width, 2.0 * shortest)
         return np.geomspace(shortest, longest, LENGTHS)
@@ -293,7 +293,7 @@ class Cycle:
 
     @cached_property
     def contact(self) -> _core.ContactForCracks:
-        """The states in the form of the core, prepared for cracks."""
+        """Return the states in the form of the core, prepared for cracks."""
         scene = self.result.scene
         return _core.ContactForCracks(
             scene.body1 if self.body_number == 1 else scene.body2,
@@ -316,9 +316,9 @@ class Cycle:
         angle: float,
         friction: float,
     ) -> tuple[float, float, float]:
-        """Mouth [m], angle [rad] and offset [m] of the plane.
+        """Return mouth [m], angle [rad] and offset [m] of the plane of cracks.
 
-        Without them, the largest range of K of short cracks decides.
+        By default they are the ones with the largest range of K of short cracks.
         """
         azimuth, offset = plane
         if azimuth is not None:
@@ -349,7 +349,7 @@ def labelled(
     tips: dict[str, Any],
     about: dict[str, Any],
 ) -> Cracks:
-    """K over (increment, length) with what it is of."""
+    """Label K over (increment, length) with coordinates, units and what it belongs to."""
     names = {
         "K_I": "opening stress intensity",
         "K_II": "shear stress intensity",

@@ -16,7 +16,7 @@ __all__ = ["channel_release", "film_intensity"]
 
 
 def own_stress(coating: Coating, stress: float | None) -> float:
-    """The stress that is given, or the residual stress of a coating that has one number [Pa].
+    """Return the given stress, or the uniform residual stress of a coating [Pa].
 
     Raises
     ------

@@ -68,6 +68,7 @@ class FailureOrder(NamedTuple):
         return {"film": None, "interface": None, "substrate": self.substrate_error}
 
     def _sentences(self) -> list[str]:
+        """Return the sentences of the summary."""
         sentences = [
             f"{part} {with_error(getattr(self, part), self.errors[part])}" for part in PARTS
         ]
@@ -189,7 +190,7 @@ def first_to_fail(
 
 
 def tension_along(result: Run, section: Section, depths: list[float]) -> float:
-    """The largest stress of the film along a section over its cycle [Pa]."""
+    """Return the largest stress of the film along a section over its cycle [Pa]."""
     line = section.line
     stress = history(
         result,

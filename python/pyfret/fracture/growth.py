@@ -116,6 +116,7 @@ class Threshold:
     def _numbers(
         self,
     ) -> tuple[float, float | None, float, float | None, list[tuple[float, float]] | None]:
+        """Return the numbers as the core takes them."""
         table = None if self.table is None else pairs_of(self.table)
         return self.dK_th, self.dS_0, self.Y, self.walker, table
 
@@ -130,7 +131,7 @@ class Threshold:
         return _core.threshold_at(self._numbers(), [])[1]
 
     def range_at(self, lengths: ArrayLike) -> NDArray[np.float64]:
-        """Threshold of cracks of the lengths [m] at R = 0 [Pa m^0.5]."""
+        """Return the threshold range of cracks of these lengths [m] at R = 0 [Pa m^0.5]."""
         lengths = plain(lengths, "lengths")
         dK, _ = _core.threshold_at(self._numbers(), lengths.ravel().tolist())
         return np.reshape(dK, lengths.shape)
@@ -180,7 +181,7 @@ class Paris:
 
 
 def pairs_of(table: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
-    """The rows of a table of thresholds as pairs of numbers.
+    """Return the rows of a table of thresholds as pairs of numbers.
 
     Raises
     ------
@@ -220,7 +221,7 @@ class Cracks(Saveable, Labelled, Figured):
         return line_through_point(*self._coordinates(0.0), azimuth)
 
     def _coordinates(self, away: Any) -> tuple[Any, Any]:
-        """X and y of distances along the plane of the cracks [m]."""
+        """Return x and y of distances along the plane of the cracks [m]."""
         azimuth, offset = (
             float(self.dataset.attrs.get(name, 0.0)) for name in ("azimuth", "offset")
         )
@@ -234,7 +235,7 @@ class Cracks(Saveable, Labelled, Figured):
 
     @property
     def lengths(self) -> NDArray[np.float64]:
-        """Lengths [m]."""
+        """Return the lengths [m]."""
         return np.asarray(self.dataset.length.values, float)
 
     @property
@@ -306,7 +307,7 @@ class Cracks(Saveable, Labelled, Figured):
 
     @quantities
     def scaled(self, factor: float) -> Cracks:
-        """Give the same with every K times a factor, for example :func:`ellipse_factor`."""
+        """Return the same cracks with every K times a factor, such as :func:`ellipse_factor`."""
         return Cracks(
             xr.Dataset(
                 {
@@ -342,7 +343,7 @@ class Cracks(Saveable, Labelled, Figured):
     def _range(
         self, threshold: Threshold | None, more: NDArray[np.float64] | float
     ) -> NDArray[np.float64]:
-        """The range with `more` of K_max."""
+        """Return the range of K with `more` added to K_max."""
         _, largest, smallest = self._curve(more)
         if threshold is None or not np.all(np.isfinite(largest)):
             return np.maximum(largest, 0.0) - np.maximum(smallest, 0.0)
@@ -370,6 +371,7 @@ class Cracks(Saveable, Labelled, Figured):
         below = cast("Threshold", threshold)
 
         def followed(more: NDArray[np.float64] | float) -> tuple[Any, ...]:
+            """Return the arrest with `more` added to K_max."""
             return _core.arrest(*self._curve(more), below._numbers(), first)
 
         verdict, length, crossings, at_start, margin, at = followed(0.0)
@@ -425,6 +427,7 @@ class Cracks(Saveable, Labelled, Figured):
             )
 
         def followed(more: NDArray[np.float64] | float) -> tuple[float, float, bool]:
+            """Return the life with `more` added to K_max."""
             return _core.crack_life(
                 *self._curve(more),
                 below._numbers(),

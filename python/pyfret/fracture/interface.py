@@ -119,7 +119,7 @@ def over_cycle(
 
 
 def _half_chord(path: np.ndarray) -> np.ndarray:
-    """Half the longest chord of paths of shape (time, ..., 2)."""
+    """Return half the longest chord of paths of shape (time, ..., 2)."""
     longest = np.zeros(path.shape[1:-1])
     for n in range(1, len(path)):
         chords = np.linalg.norm(path[n:] - path[:-n], axis=-1)

@@ -59,7 +59,7 @@ class EnergyCurve:
     def evaluate(
         self, amplitude: NDArray[np.float64], *, linear: bool = False
     ) -> NDArray[np.float64]:
-        """Return the energy of loops of some amplitudes [J]; `linear`: by straight pieces."""
+        """Return the energy of loops of some amplitudes [J]; if `linear`, by straight pieces."""
         a = np.asarray(amplitude, dtype=float)
         energy = self._of_partial_slip(a, linear=linear)
         if self._first is None:
@@ -84,7 +84,7 @@ class EnergyCurve:
 
     @cached_property
     def onset(self) -> float | None:
-        """Amplitude at which gross slip begins, where it lies between two loops."""
+        """Return the amplitude at which gross slip begins; None if it is not between two loops."""
         first = self._first
         if first is None or first == 0:
             return None
@@ -104,6 +104,7 @@ class EnergyCurve:
         return a, np.log(self.energies[chosen] / a**3)
 
     def _of_partial_slip(self, a: NDArray[np.float64], *, linear: bool) -> NDArray[np.float64]:
+        """Return the energy below the onset of gross slip, by cubic or straight pieces."""
         nodes, ratio = self._partial
         if nodes.size == 0:
             return np.zeros_like(a)

@@ -188,6 +188,7 @@ class Ladder:
             counts.append(count)
 
         def half(amplitude: float, mean: float, count: float, *, falling: bool) -> None:
+            """Go half a loop, to its other end, and note how many loops it stands for."""
             steps = HALF_TURN if companions.turns else 1
             start = 0.0 if falling else np.pi
             for k in range(1, steps + 1):
@@ -223,6 +224,7 @@ class Ladder:
         counted = len(points)
 
         def lead(u: float) -> int:
+            """Add a branch to a value of the counted channel; return its number."""
             add_point(u, 0.0, 0.0)
             return before + len(points) - 1
 

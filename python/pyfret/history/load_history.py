@@ -422,6 +422,7 @@ class LoadHistory(HoldsArrays, Figured):
         return f"LoadHistory({self._text()})"
 
     def _text(self) -> str:
+        """Return the history as one line."""
         unit = channel_unit(self.channel)
         clock = "" if self.duration is None else f", {format_number(self.duration)} s"
         if self.spectrum is not None:

@@ -105,7 +105,7 @@ class CountedLoops(Saveable, Labelled, Figured):
 
     @property
     def total(self) -> float:
-        """Number of loops."""
+        """Return the number of loops."""
         return float(self.dataset["count"].sum())
 
     @property
@@ -198,7 +198,7 @@ def distinct(values: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def padded(values: NDArray[np.float64]) -> tuple[float, float]:
-    """Return the ends of an axis round some values."""
+    """Return the ends of an axis that leaves some room around values."""
     low, high = float(values.min()), float(values.max())
     room = 0.5 * (high - low) / 24.0 or max(abs(low), 1.0) * 0.05
     return low - room, high + room

@@ -63,6 +63,7 @@ class MeanGrid:
         branch, current = -1, mean + top
 
         def lead(value: float) -> int:
+            """Lead the path to a value; return the branch."""
             nonlocal branch, current
             if abs(value - current) > 1e-9 * top:
                 branch, current = go(value), value
@@ -116,6 +117,7 @@ def grid_weights(loops: NDArray[np.float64], top: float, middle: float) -> NDArr
     position = np.clip((loops[:, 1] - middle) / room, -1.0, 1.0)
 
     def hats(nodes: tuple[float, ...], values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the weights of linear interpolation between nodes, for each value."""
         return np.stack([np.interp(values, nodes, column) for column in np.eye(len(nodes))], axis=1)
 
     along_size = hats((*SIZES, 1.0), size)[:, : len(SIZES)]

@@ -68,7 +68,7 @@ def read_history(
 
 
 def of_recording(section: dict[str, Any], folder: Path) -> LoadHistory:
-    """Read a recording."""
+    """Read the history of a recording that a section names."""
     name = section["file"]
     if not isinstance(name, str):
         raise ValueError(f"{name!r:.60}: must be the name of a file in quotes")
@@ -82,20 +82,20 @@ def of_recording(section: dict[str, Any], folder: Path) -> LoadHistory:
 
 
 def of_spectrum(section: dict[str, Any], _: Path) -> LoadHistory:
-    """Read a spectrum."""
+    """Read the history of a spectrum in a section."""
     table = required(section["spectrum"], ("frequencies", "values", "duration"))
     options = {key: value for key, value in table.items() if key in SPECTRUM}
     return LoadHistory.from_spectrum((table["frequencies"], table["values"]), **options)
 
 
 def of_matrix(section: dict[str, Any], _: Path) -> LoadHistory:
-    """Read counted loops."""
+    """Read the history of counted loops in a section."""
     table = required(section["matrix"], ("range", "mean", "counts"))
     return LoadHistory.from_matrix(**{k: v for k, v in table.items() if k in MATRIX})
 
 
 def required(table: Any, keys: tuple[str, ...]) -> dict[str, Any]:
-    """Return a table that has some keys."""
+    """Return a table; a ValueError if one of the keys is missing."""
     if not isinstance(table, dict):
         raise ValueError(f"{table!r:.60}: must be a table of {', '.join(keys)}")
     for key in keys:

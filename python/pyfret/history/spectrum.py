@@ -80,7 +80,7 @@ class Spectrum(HoldsArrays):
         amplitudes: NDArray[np.float64] | None = None,
         powers: NDArray[np.float64] | None = None,
     ) -> dict[str, NDArray[np.float64]]:
-        """Numbers of the cycles, by the core."""
+        """Return the numbers of the cycles of a distribution, by the core."""
         none = np.empty(0)
         return _core.spectral_cycles(
             self.frequencies,

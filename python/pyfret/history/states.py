@@ -84,6 +84,7 @@ def group_loops(
     counts = np.bincount(position, rows[:, 2], filled.size)
 
     def mean_over_class(values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the mean of values over the loops of each class, weighted by their counts."""
         return np.stack(
             [
                 np.bincount(position, rows[:, 2] * column, filled.size) / counts

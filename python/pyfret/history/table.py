@@ -97,7 +97,7 @@ class HistoryTable:
         return np.array([float(dissipated[a : b + 1].sum()) for a, b in branches])
 
     def _curve_of(self, run: Run) -> EnergyCurve:
-        """Return the energy over the amplitude of the loops of a run."""
+        """Return the energy over the amplitude, from the loops of a run."""
         ladder, ends, d = self.ladder, branch_ends(run), run.dataset
         tops, bottoms = (
             np.searchsorted(d.increment.values, [ends[branch] for branch in branches[::-1]])
@@ -236,7 +236,7 @@ class HistoryTable:
 
     @property
     def is_interpolated(self) -> bool:
-        """Whether some loops have amplitudes between the amplitudes of the table."""
+        """Return whether some loops have amplitudes between the ones of the table."""
         occurring = distinct(self.loops.dataset.amplitude.values)
         nearest = self.amplitudes[
             np.abs(self.amplitudes[:, None] - occurring[None, :]).argmin(axis=0)
@@ -245,7 +245,7 @@ class HistoryTable:
 
     @cached_property
     def interpolation_error(self) -> float:
-        """Difference of the energy to the one by every second amplitude, over the energy.
+        """Return the change of the energy if every second amplitude is left out, over the energy.
 
         Where gross slip begins between two amplitudes, half of the distance of the bounds counts as
         well.
@@ -264,6 +264,7 @@ class HistoryTable:
         return self._halving_error(linear=True)
 
     def _halving_error(self, *, linear: bool) -> float:
+        """Return the relative change of the energy without every second amplitude."""
         amplitude, count = loops_as_levels(self.loops)[:, [0, 2]].T
         by_all, by_half = (
             float((count * curve.evaluate(amplitude, linear=linear)).sum())
@@ -276,7 +277,7 @@ class HistoryTable:
 
     @cached_property
     def energy_errors(self) -> dict[str, float]:
-        """Parts of the energy that may be wrong, by their sources, as for damage."""
+        """Return the relative errors of the energy by their sources, as for damage."""
         path_error = self.run.dataset.attrs.get("path_error")
         errors = {
             "amplitudes": self.interpolation_error,
@@ -301,7 +302,7 @@ class HistoryTable:
 
     @property
     def record_scatter(self) -> float | None:
-        """Standard deviation of the energy of one record over its mean; None: no spectrum."""
+        """Return the relative scatter of the energy of one record of a spectrum, or None."""
         spectrum, duration = self.history.spectrum, self.history.duration
         if spectrum is None or duration is None:
             return None
@@ -358,7 +359,7 @@ class HistoryTable:
     def _memory_of_history(
         self,
     ) -> tuple[NDArray[np.float64], list[NDArray[np.float64]], NDArray[np.float64]]:
-        """Rows of range, mean and count, the weights of D at both ends, and the branches."""
+        """Return rows of range, mean and count, the weights of D at both ends, and the branches."""
         history = self.history
         if history.is_series:
             return self._memory_of_series(history.channels[history.channel], self.loops)
@@ -376,6 +377,7 @@ class HistoryTable:
     def _memory_of_series(
         self, values: NDArray[np.float64], loops: CountedLoops
     ) -> tuple[NDArray[np.float64], list[NDArray[np.float64]], NDArray[np.float64]]:
+        """Return the same as :meth:`_memory_of_history` for loops of a series of values."""
         d = loops.dataset
         firsts, lasts = (d[name].values.astype(int) for name in ("first", "last"))
         turns = rearranged(values)
@@ -411,6 +413,7 @@ class HistoryTable:
         position = {branch: int(np.searchsorted(increments, n)) for branch, n in ends.items()}
 
         def half_changes(pairs: list[tuple[int, int]]) -> NDArray[np.float64]:
+            """Return the half change D of pairs of increments."""
             half = np.zeros((len(pairs), increments.size))
             for row, (high, low) in enumerate(pairs):
                 half[row, position[high]] += 0.5

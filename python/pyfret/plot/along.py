@@ -34,7 +34,7 @@ MARGIN = 0.3
 
 
 def touched(snapshot: State, axis: int, length: Scale) -> tuple[float, float] | None:
-    """Ends along x (0) or y (1) of what is in contact, with some room; None without contact."""
+    """Return the ends of the contact along x (0) or y (1) with some room; None without contact."""
     contact = snapshot.dataset.contact.values.astype(bool)
     if not contact.any():
         return None
@@ -68,7 +68,7 @@ def look_along(
 
 
 def legend_of_zones(ax: Axes, zone: NDArray[np.int_], *further: Any) -> None:
-    """A legend above the axes of the zones that are there."""
+    """Draw a legend above the axes of the zones that occur."""
     zones = ((2, STICK, "stick"), (1, SLIP, "slip"))
     handles = [Patch(color=color, label=label) for n, color, label in zones if (zone == n).any()]
     handles += further
@@ -84,7 +84,7 @@ def legend_of_zones(ax: Axes, zone: NDArray[np.int_], *further: Any) -> None:
 
 
 def zones_along(ax: Axes | None, snapshot: State, by: Scales, zone: NDArray[np.int_]) -> Axes:
-    """Pressure of a line contact, the cells below it coloured by whether they stick or slip."""
+    """Draw the pressure of a line contact, cells below it coloured by stick and slip."""
     ax = axes(ax)
     x, p = snapshot.dataset.x.values / by.length.value, snapshot.dataset.p.values[:, 0]
     cell = snapshot.scene.grid.dx / by.length.value
@@ -111,7 +111,7 @@ def field_along(
     *,
     largest: float | None = None,
 ) -> Axes:
-    """A field of a line contact along x, without cells that do not touch."""
+    """Draw a field of a line contact along x, without cells that do not touch."""
     ax = axes(ax)
     x = snapshot.dataset.x.values / length.value
     contact = snapshot.dataset.contact.values.astype(bool)[:, 0]
@@ -125,7 +125,7 @@ def field_along(
 
 
 def shear_along(ax: Axes | None, snapshot: State, by: Scales) -> Axes:
-    """Shear of a line contact within the bounds of friction, in grey; both components if both."""
+    """Draw the shear of a line contact within the bounds of friction, in grey."""
     ax = axes(ax)
     d = snapshot.dataset
     x, contact = d.x.values / by.length.value, d.contact.values.astype(bool)[:, 0]

@@ -110,6 +110,7 @@ def animate(
     ]
 
     def draw(n: int) -> Any:
+        """Draw the n-th frame."""
         at = snapshots[n]
         dot.set_data(*loop_point(result, at))
         for ax in row[1:]:

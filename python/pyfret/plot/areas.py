@@ -28,7 +28,7 @@ FINE = 300
 
 
 def geometric(values: NDArray[Any]) -> bool:
-    """Whether numbers are in geometric rather than in equal steps."""
+    """Return whether numbers rise in geometric rather than in equal steps."""
     if values.dtype.kind not in "if" or values.size < 3 or (values <= 0).any():
         return False
     steps, ratios = np.diff(values), np.diff(np.log(values))
@@ -64,7 +64,7 @@ class Raster:
         )
 
     def resample(self, field: NDArray[Any]) -> NDArray[np.float64]:
-        """A field over (y, x) on the raster; NaN beside a sample without a value."""
+        """Interpolate a field over (y, x) on the raster; NaN beside a sample without a value."""
         (x, y), (log_x, log_y) = self._samples, self._log
         rows = np.array(
             [interpolate_axis(self.x, x, row, log=log_x) for row in np.asarray(field, float)]
@@ -72,7 +72,7 @@ class Raster:
         return np.array([interpolate_axis(self.y, y, column, log=log_y) for column in rows.T]).T
 
     def nearest(self, field: NDArray[Any]) -> NDArray[Any]:
-        """Values of the nearest samples, of a field over (y, x)."""
+        """Return the values of the nearest samples of a field over (y, x)."""
         places = [
             np.rint(
                 interpolate_axis(fine, given_samples, np.arange(given_samples.size), log=log)
@@ -134,7 +134,7 @@ class Raster:
 
 
 def fine(values: NDArray[Any], *, log: bool) -> NDArray[np.float64]:
-    """Coordinates of the raster; a single sample has a place of its own width."""
+    """Return coordinates of the raster; a single sample gets a width of its own."""
     low, high = float(values.min()), float(values.max())
     if low == high:
         half = 0.5 * abs(low) or 0.5
@@ -145,7 +145,7 @@ def fine(values: NDArray[Any], *, log: bool) -> NDArray[np.float64]:
 def interpolate_axis(
     places: NDArray[Any], samples: NDArray[Any], values: NDArray[Any], *, log: bool
 ) -> NDArray[np.float64]:
-    """Linear interpolation over ascending samples, or over their logarithm."""
+    """Interpolate linearly over ascending samples, or over their logarithm."""
     order = np.argsort(samples)
     scale = np.log if log else np.asarray
     return np.asarray(

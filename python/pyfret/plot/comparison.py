@@ -85,7 +85,7 @@ def comparison(of: SideBySide, *, width: Width | None = None) -> Figure:
 
 
 def draw(ax: Axes, panel: Panel) -> None:
-    """One number of all candidates."""
+    """Draw one number of all candidates."""
     values, low, high = panel.values, panel.low, panel.high
     finite = values[np.isfinite(values)]
     bounds: list[float] = []

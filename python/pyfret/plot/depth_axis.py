@@ -61,15 +61,17 @@ def draw_depth_axis(
 
 
 def stretch_axis(ax: Axes, borders: NDArray[np.float64], which: Literal["x", "y"]) -> None:
-    """Give every layer room on an axis: even within a layer, another scale in each."""
+    """Give every layer enough room on an axis: linear within a layer, another scale in each."""
     places = stretched(borders)
     span = borders[-1] - borders[0]
 
     def onward(z: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the places of depths on the axis."""
         beyond = np.minimum(z - borders[0], 0) + np.maximum(z - borders[-1], 0)
         return np.asarray(np.interp(z, borders, places) + beyond / span)
 
     def back(place: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the depths of places on the axis."""
         beyond = np.minimum(place, 0) + np.maximum(place - 1, 0)
         return np.asarray(np.interp(place, places, borders) + span * beyond)
 

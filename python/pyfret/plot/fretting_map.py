@@ -90,7 +90,7 @@ def fretting_map(table: xr.Dataset, *, width: Width | None = None, ax: Axes | No
 
 
 def onset(table: xr.Dataset, raster: Raster, scale: float) -> NDArray[np.float64] | None:
-    """The amplitude of gross slip along the raster: a power of W between the forces."""
+    """Return the amplitude of gross slip along the raster: a power of W between the forces."""
     if "slides_from" not in table or not (table.slides_from > 0.0).all():
         return None
     W, limit = table.W.values, table.slides_from.values * scale
@@ -99,7 +99,7 @@ def onset(table: xr.Dataset, raster: Raster, scale: float) -> NDArray[np.float64
 
 
 def conditions(table: xr.Dataset, raster: Raster, scale: float) -> NDArray[np.float64]:
-    """Running conditions on the raster: gross slip above its onset, samples below it."""
+    """Return the running conditions on the raster: gross slip above its onset, samples below it."""
     status = table.status.values
     codes = raster.nearest(status).astype(float)
     limit = onset(table, raster, scale)
@@ -113,7 +113,7 @@ def conditions(table: xr.Dataset, raster: Raster, scale: float) -> NDArray[np.fl
 
 
 def carried(field: NDArray[Any], order: NDArray[np.int_]) -> NDArray[np.float64]:
-    """A field over (amplitude, W) whose last value of every column goes on to larger amplitudes."""
+    """Extend the last value of every column of a field over (amplitude, W) to larger amplitudes."""
     out = np.array(field[order], dtype=float)
     for below, row in pairwise(out):
         row[np.isnan(row)] = below[np.isnan(row)]
@@ -142,7 +142,7 @@ def lines(
     style: Literal["solid", "dashed", "dotted"],
     meaning: str,
 ) -> list[Line2D]:
-    """Contours with their numbers, and their entry in the legend; none where nothing is known."""
+    """Draw contours with their numbers; return their entry in the legend, none without values."""
     shown = np.ma.masked_invalid(field)
     if min(shown.shape) < 2 or shown.count() < 4:
         return []
@@ -157,7 +157,7 @@ def lines(
 
 
 def arrest_lines(ax: Axes, raster: Raster, table: xr.Dataset, colour: str = ARREST) -> list[Line2D]:
-    """Contours of the length at which cracks stop, and the line beyond which none does."""
+    """Draw contours of the length at which cracks stop, and the line beyond which none stops."""
     if "arrest_margin" not in table:
         return []
     x, y = raster.x, raster.y

@@ -30,7 +30,7 @@ NAMES = {
 
 
 def driven(path: LoadPath) -> Direction:
-    """The direction that a path drives first; x if none."""
+    """Return the direction that a path drives first; x if it drives none."""
     directions: tuple[Direction, ...] = ("x", "y", "torsion")
     for branch in path.branches:
         for direction in directions:
@@ -132,7 +132,7 @@ def loop_point(result: Run, at: State) -> tuple[list[float], list[float]]:
 
 
 def loop_scales(result: Run, units: Units, *, torsion: bool) -> tuple[Scale, Scale]:
-    """Scales of the force, or moment, and of the shift, or rotation."""
+    """Return the scales of the force, or moment, and of the shift, or rotation."""
     W, mu = result.W_max, result.mu
     force = str(result.dataset["M_z" if torsion else "T_x"].attrs["units"])
     # The approach of a line contact, the yardstick of shifts, depends on where it is read.
@@ -247,7 +247,7 @@ def load_path(
 def histories(
     path: LoadPath | Run,
 ) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]]]:
-    """Path time, and what the path drives, from the unloaded state."""
+    """Return path time and the loads and motions that the path drives, from the unloaded state."""
     branches = path.branches if isinstance(path, LoadPath) else path.scene.path.branches
     names = [name for name in DRIVEN if any(getattr(b, name) for b in branches)]
     if isinstance(path, LoadPath):

@@ -63,7 +63,7 @@ def used_part(worst: Extremum) -> str:
 
 
 def _shown(life: Life) -> tuple[NDArray[np.float64], str]:
-    """The field of a map and what it is called."""
+    """Return the field of a map and its label."""
     name = NAMES[life.dataset.attrs["criterion"]]
     margin = life.extrapolated()
     if life.margin.name == "safety_factor":
@@ -171,7 +171,7 @@ def _contours(
     depth: DepthScale,
     limit: float | None,
 ) -> Axes:
-    """Contours of a field over (depth, x) or (depth, y), layer by layer; dark is near to the limit.
+    """Draw contours of a field over (depth, x) or (depth, y) by layers; dark is near the limit.
 
     Without a limit, such as for lives, small values are dark.
     """
@@ -207,7 +207,7 @@ def _contours(
 
 
 def _enlarge(ax: Axes, shown: xr.DataArray, value: NDArray[np.float64], units: Units) -> None:
-    """Show the surroundings of the values above half of the largest, if they are few."""
+    """Zoom to the surroundings of the values above half of the largest, if they are few."""
     if not np.nanmax(value, initial=0.0) > 0.0:
         return
     length = scales(shown.attrs, units).length
@@ -312,7 +312,7 @@ def _mark(
 
 
 def history_of(stress: ArrayLike | Life) -> tuple[NDArray[np.float64], fatigue.Criterion | None]:
-    """The stress history of one point of shape (time, 6) [Pa], and the criterion of a life."""
+    """Return the stress history of a point, shape (time, 6) [Pa], and the criterion of a life."""
     if isinstance(stress, fatigue.Life):
         return stress.history(), stress.criterion
     history = histories(stress, "stress").whole()
@@ -506,7 +506,7 @@ def has_numbers(material: Material | None, *names: str) -> bool:
 
 
 def _limit_of_uniaxial_stress(ax: Axes, material: Material) -> None:
-    """The amplitude that a mean stress leaves, where there are points."""
+    """Draw the amplitude that a mean stress leaves, where there are points."""
     slope, name = fatigue.mean_stress_slope(material)
     s_D = material.number("s_D") / 1e6
     x_min, right = ax.get_xlim()

@@ -36,7 +36,7 @@ INNER = 0.97
 
 
 def frame(ax: Axes, snapshot: State, length: Scale) -> tuple[float, float, float, float]:
-    """Label the axes, draw the Hertz circle and give the edges of the grid over the length."""
+    """Label the axes, draw the Hertz circle, and return the edges of the grid over the length."""
     grid = snapshot.scene.grid
     x, y = (snapshot.dataset[k].values / length.value for k in ("x", "y"))
     dx, dy = grid.dx / length.value, grid.dy / length.value
@@ -58,7 +58,7 @@ def look_at_contact(ax: Axes, snapshot: State, length: Scale) -> None:
 
 
 def is_round(snapshot: State) -> bool:
-    """Whether the bodies are spheres or flats."""
+    """Return whether the bodies are spheres or flats."""
     scene = snapshot.scene
     shapes = (scene.body1.shape, scene.body2.shape)
     return not scene.grid.plane_strain and all(isinstance(s, (Sphere, Flat)) for s in shapes)
@@ -113,7 +113,7 @@ def field_map(
     length: Scale,
     **image: Any,
 ) -> tuple[Axes, AxesImage]:
-    """A field on the contact, blank beside it."""
+    """Draw a field on the contact, blank beside it."""
     ax = axes(ax, square=True)
     extent = frame(ax, snapshot, length)
     contact = snapshot.dataset.contact.values.astype(bool)

@@ -41,7 +41,7 @@ def name(ratio: float) -> str:
 
 
 def loading_history(result: Run, jump: Run) -> Figure:
-    """Figure 5: tractions after indentation, with and without reproduction of the load path."""
+    """Draw figure 5: tractions after indentation, with and without the load path."""
     figure, (left_axes, right) = plt.subplots(1, 2, figsize=(7.6, 3.2))
     ends = result.dataset.branch_of_increment.values
     indented = int(np.flatnonzero(ends == ends[0])[-1]) + 1
@@ -59,7 +59,7 @@ def loading_history(result: Run, jump: Run) -> Figure:
 
 
 def similar_bodies(result: Run) -> Figure:
-    """Figure 6: shear along the fretting loop of similar bodies over the closed form, in grey."""
+    """Draw figure 6: shear along the loop of similar bodies over the closed form, in grey."""
     figure, ax = plt.subplots(figsize=(6.4, 4.2))
     r = np.linspace(-1.1, 1.1, 1101)
     for increment in result.dataset.saved_increment.values:
@@ -71,7 +71,7 @@ def similar_bodies(result: Run) -> Figure:
 
 
 def mindlin_shear(result: Run, increment: int, r: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Closed form of q_x at the distance `r` after an increment of a cycle between -T_m and T_m."""
+    """Return q_x in closed form at the distance `r` after an increment of a cycle of +-T_m."""
     scene = result.scene
     hertz = scene.hertz
     T = result.dataset.T_x.values[:increment]
@@ -87,7 +87,7 @@ def mindlin_shear(result: Run, increment: int, r: NDArray[np.float64]) -> NDArra
 
 
 def profiles(result: Run, ratio: float) -> Figure:
-    """Figure 7: shear along the fretting loop."""
+    """Draw figure 7: shear along the fretting loop."""
     figure, ax = plt.subplots(figsize=(6.4, 4.2))
     shear_profiles(result, ax=ax)
     ax.set_title(name(ratio))
@@ -95,7 +95,7 @@ def profiles(result: Run, ratio: float) -> Figure:
 
 
 def streamlines(results: Mapping[float, Run], times: tuple[float, ...]) -> Figure:
-    r"""Figures 8 to 10: directions of the shear at the given :math:`t/\tau`."""
+    r"""Draw figures 8 to 10: directions of the shear at the given :math:`t/\tau`."""
     shown = [
         (ratio, results[ratio].at(t * tau(results[ratio])), t) for ratio in results for t in times
     ]
@@ -126,7 +126,7 @@ def tau(result: Run) -> float:
 
 
 def stick_areas(results: Mapping[float, Run]) -> Figure:
-    """Figure 11: the stick area of every ratio, and its difference to the ratio 1."""
+    """Draw figure 11: the stick area of every ratio, and its difference to the ratio 1."""
     if 1.0 not in results or len(results) == 1:
         return compare(stick_ratio, results, loc="lower center", ncols=4, columnspacing=1.2)
     figure, (whole, apart) = plt.subplots(1, 2, figsize=(7.6, 3.4))
@@ -147,7 +147,7 @@ def stick_areas(results: Mapping[float, Run]) -> Figure:
 
 
 def compare(draw: Callable[..., Axes], results: Mapping[float, Run], **legend: Any) -> Figure:
-    """Figure 12: the same curve of every ratio."""
+    """Draw figure 12: the same curve of every ratio."""
     figure, ax = plt.subplots()
     for ratio, result in sorted(results.items()):
         draw(result, ax=ax, label=name(ratio), color=RATIO_COLOURS.get(ratio))

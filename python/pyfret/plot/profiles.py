@@ -100,7 +100,7 @@ def _shear_on(
     bound: bool = False,
     **line: Any,
 ) -> Axes:
-    """The shear of an increment on a line."""
+    """Draw the shear of an increment on a line."""
     ax, by = axes(ax), scales_of_snapshot(snapshot, units)
     cut, fresh = fields_on(snapshot, along), not ax.lines
     name = of or main_shear(cut)

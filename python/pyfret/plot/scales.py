@@ -56,7 +56,7 @@ def bears(mu: float) -> bool:
 
 
 def scales(attrs: Mapping[Any, Any], units: Units, *, mu: float = 1.0) -> Scales:
-    """Scales of a dataset that has the yardsticks a_H and p_H among its attributes, or has not."""
+    """Return the scales of a dataset, with or without a_H and p_H among its attributes."""
     hertz = "a_H" in attrs and "p_H" in attrs
     if units not in ("auto", "dimensionless", "SI"):
         raise ValueError(f'units = {units!r}: must be "auto", "dimensionless" or "SI"')
@@ -71,7 +71,7 @@ def scales(attrs: Mapping[Any, Any], units: Units, *, mu: float = 1.0) -> Scales
 
 
 def scales_of_snapshot(snapshot: State, units: Units) -> Scales:
-    """Scales of an increment."""
+    """Return the scales of an increment."""
     return scales(snapshot.dataset.attrs, units, mu=snapshot.mu)
 
 
@@ -81,7 +81,7 @@ def last_of(shown: Run | State) -> State:
 
 
 def run_of(shown: Any) -> Run:
-    """The result of a run; anything else is refused."""
+    """Return the result of a run; refuse anything else."""
     if not isinstance(shown, Run):
         raise TypeError(
             f"{type(shown).__name__}: must be the result of a run, as solve(...) or open(...) "

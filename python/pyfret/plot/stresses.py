@@ -76,7 +76,7 @@ def _mark(ax: Axes, largest: Extremum, line: Line, by: Scales, *, marker: str = 
 
 
 def section_size(values: xr.DataArray, width: float = 4.8) -> tuple[float, float]:
-    """Size of a figure of a section [inch] that equal lengths fill, with labels and a scale."""
+    """Return the size of a figure [inch] that a section to scale fills, with labels and colours."""
     along, z = values[str(values.dims[1])].values, values.z.values
     inner = interfaces(values.z, values.layer)
     ratio = np.ptp(along) / max(np.ptp(z), 1e-300)

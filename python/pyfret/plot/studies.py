@@ -169,7 +169,7 @@ PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 
 
 def in_figures(values: xr.DataArray) -> tuple[xr.DataArray, str]:
-    """A measure in a unit that its numbers are short in, and its meaning with that unit."""
+    """Return a measure in a unit with short numbers, and its meaning with that unit."""
     unit = literal(values.attrs.get("units", "1"))
     name = literal(values.attrs.get("long_name", values.name))
     power = power_of(values)
@@ -179,7 +179,7 @@ def in_figures(values: xr.DataArray) -> tuple[xr.DataArray, str]:
 
 
 def power_of(values: xr.DataArray) -> int | None:
-    """The power of ten of the unit that the numbers of a measure are short in."""
+    """Return the power of ten of the unit in which the numbers of a measure are short."""
     if values.attrs.get("units", "1") not in ("J", "Pa", "m", "N", "N/m", "J/m", "N/m per m"):
         return None
     largest = float(np.abs(values).max())
@@ -202,7 +202,7 @@ def on_axis(coordinate: xr.DataArray, words: Words) -> tuple[np.ndarray, str]:
 def scale_axis(
     ax: Axes, which: Literal["x", "y"], coordinate: xr.DataArray, words: Words
 ) -> np.ndarray:
-    """Label an axis, and give where the values of a parameter lie on it."""
+    """Label an axis, and return where the values of a parameter lie on it."""
     values, label = on_axis(coordinate, words)
     ax.set_xlabel(label) if which == "x" else ax.set_ylabel(label)
     if values.dtype.kind not in "ifb":
@@ -219,7 +219,7 @@ def scale_axis(
 
 
 def edges(places: np.ndarray, *, logarithmic: bool) -> np.ndarray:
-    """Borders of cells around the values of a parameter, half way on its axis."""
+    """Return the borders of cells around the values of a parameter, half way on its axis."""
     values = np.log(places) if logarithmic else places
     if values.size == 1:
         step = 0.5 * abs(values[0]) or 0.5
@@ -249,14 +249,14 @@ def scatter_of(field: np.ma.MaskedArray[Any, Any]) -> float:
 
 
 def line(ax: Axes, values: xr.DataArray, label: str, words: Words) -> None:
-    """A measure over one parameter."""
+    """Draw a measure over one parameter."""
     places = scale_axis(ax, "x", values[str(values.dims[0])], words)
     ax.plot(places, values.values, "o-", markersize=4)
     ax.set_ylabel(label)
 
 
 def shade(ax: Axes, values: xr.DataArray, d: xr.Dataset, name: str, words: Words) -> None:
-    """The range of a measure over one parameter, behind its line."""
+    """Draw the range of a measure over one parameter, behind its line."""
     ends = bounds(d, name)
     if ends is None:
         return
@@ -276,7 +276,7 @@ def plane(
     label: str | None,
     words: Words,
 ) -> None:
-    """A measure over two parameters."""
+    """Draw a measure over two parameters."""
     first, second = (str(name) for name in values.dims)
     x = scale_axis(ax, "x", values[first], words)
     y = scale_axis(ax, "y", values[second], words)
@@ -306,7 +306,7 @@ BORDER = 0.05
 
 
 def whole_labels(ax: Axes, labels: Iterable[Text]) -> None:
-    """Take off labels of contours that the border of the axes would cut; the others get a halo."""
+    """Remove labels of contours that the border of the axes would cut; the others get a halo."""
     from matplotlib.patheffects import withStroke
 
     onto_axes = ax.transData + ax.transAxes.inverted()
@@ -324,7 +324,7 @@ def scattered(
     label: str,
     words: Words,
 ) -> None:
-    """A measure at samples: over the only parameter, or by colour over the first two."""
+    """Draw a measure at samples: over the only parameter, or by colour over the first two."""
     x, text = on_axis(values[parameters[0]], words)
     ax.set_xlabel(text)
     if len(parameters) == 1:

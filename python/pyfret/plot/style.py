@@ -69,7 +69,7 @@ if TYPE_CHECKING:
 
         @property
         def figure(self) -> Figure:
-            """The figure."""
+            """Return the figure."""
 
 
 P = ParamSpec("P")
@@ -87,6 +87,7 @@ def styled(draw: Callable[P, Any]) -> Callable[P, Any]:
 
     @wraps(draw)
     def inside(*args: P.args, **kwargs: P.kwargs) -> Any:
+        """Call `draw` in the shared look."""
         if DRAWING.get():
             return draw(*args, **kwargs)
         width: Any = kwargs.get("width")
@@ -138,6 +139,7 @@ def show_once(figure: Figure) -> None:
     """
 
     def show() -> None:
+        """Show the figure once."""
         notebook = import_module("IPython.display")
         file = io.BytesIO()
         figure.savefig(file, format="png", bbox_inches="tight")
@@ -165,7 +167,7 @@ def axes(ax: Axes | None, *, square: bool = False) -> Axes:
 
 
 def add_colour_bar(ax: Axes, image: Any, label: str, *, extend: str = "neither") -> Colorbar:
-    """The scale of colours of `image` beside the axes, as high as they are."""
+    """Add the scale of colours of `image` beside the axes, as high as they are."""
     inset = ax.inset_axes((1.03, 0.0, 0.05, 1.0))
     bar: Colorbar = ax.get_figure().colorbar(image, cax=inset, extend=extend)  # type: ignore[union-attr]
     bar.outline.set_visible(False)
@@ -212,7 +214,7 @@ def draw_cross(ax: Axes, x: float, y: float) -> None:
 
 
 def inside_legend(ax: Axes, *, handles: list[Artist] | None = None) -> None:
-    """A legend on the section, deep below the contact, legible on its colours."""
+    """Add a legend on the section, deep below the contact, legible on its colours."""
     options = {} if handles is None else {"handles": handles}
     ax.legend(
         loc="lower right",

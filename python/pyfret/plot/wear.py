@@ -23,6 +23,7 @@ MOST_LINES = 50
 
 
 def _depth(d: xr.Dataset, of: Which) -> np.ndarray:
+    """Return the worn depth of a body, or of both."""
     fields = {"body1": d.worn1, "body2": d.worn2, "both": d.worn1 + d.worn2}
     return np.asarray(fields[of])
 

@@ -127,7 +127,7 @@ def plastic_zone(
 
 
 def _on_line(plastic: PlasticState, state: State, line: Line) -> xr.DataArray:
-    """The equivalent strain below a line, over depth and place; 0 beside what may yield."""
+    """Return the equivalent strain below a line, over depth and place; 0 beside what may yield."""
     d = plastic.dataset[["equivalent"]].transpose("z", "x", "y")
     strain: xr.DataArray = cut(d, state.scene.grid, line).equivalent
     inside = np.ones(strain.sizes[line.axis], dtype=bool)

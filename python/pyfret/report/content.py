@@ -56,7 +56,7 @@ def frame(result: Run, snapshots: list[State]) -> tuple[NDArray[np.int64], NDArr
 
 
 def window_around(touched: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """The places of a line that are shown: the contact with some room."""
+    """Return the places of a line that are shown: the contact with some room."""
     inside, n = np.flatnonzero(touched), touched.size
     first, last = (inside[0], inside[-1]) if inside.size else (0, n - 1)
     room = max((last - first + 1) // 12, 1)
@@ -73,7 +73,7 @@ def sticks_of(at: State) -> str:
 
 
 def increments(result: Run) -> dict[str, Any]:
-    """Pressure, shear and zones of the increments with fields, and tractions along the shear."""
+    """Return pressure, shear and zones of increments with fields, and tractions along the shear."""
     numbers = result.dataset.saved_increment.values
     snapshots = [result.at(int(numbers[k])) for k in chosen(numbers.size, KEPT)]
     columns, rows = frame(result, snapshots)
@@ -130,7 +130,7 @@ def increments(result: Run) -> dict[str, Any]:
 
 
 def loop(result: Run) -> dict[str, Any]:
-    """Force over shift from the end of the first branch on, with the increments of the points."""
+    """Return force over shift from the end of the first branch, and increments of points."""
     direction = next(iter(directions(result)), "x")
     force, shift, y, x = LOOPS[direction]
     d = result.dataset
@@ -145,9 +145,10 @@ def loop(result: Run) -> dict[str, Any]:
 
 
 def stress(result: Run, crack: CrackSection | None = None) -> dict[str, Any] | None:
-    """Von Mises stress on the section along the shear at the last increment, of the lower body.
+    """Return the von Mises stress on the section along the shear at the last increment.
 
-    With a crack, on the plane of the crack in its body, and the crack in it.
+    It is the stress of the lower body. With a crack, it lies on the plane of the crack in its body,
+    with the crack.
     """
     at = result.at(-1)
     number = 2 if crack is None else int(crack.about["body_number"])
@@ -199,7 +200,7 @@ def stress(result: Run, crack: CrackSection | None = None) -> dict[str, Any] | N
 
 
 def wear(worn: WearResult) -> dict[str, Any]:
-    """Depths over cycles, and the worn profiles of both bodies at the end."""
+    """Return depths over cycles, and the worn profiles of both bodies at the end."""
     d = worn.dataset
     cut, direction = worn.along(), worn.direction
     along = str(cut.worn2.dims[-1])
@@ -229,7 +230,7 @@ def closed(corners: NDArray[np.float64]) -> NDArray[np.float64]:
 def figures(
     result: Run, worn: WearResult | None = None, crack: CrackSection | None = None
 ) -> dict[str, Any]:
-    """All numbers of the figures of a page."""
+    """Return all numbers of the figures of a page."""
     return {
         "fields": increments(result),
         "loop": loop(result),

@@ -58,7 +58,7 @@ class CrackSection:
     def drawn(
         self, deepest: float, place: Callable[[NDArray[np.float64]], list[float]]
     ) -> dict[str, Any]:
-        """Its way [µm] where depths [µm] are drawn at a place: to where it stops, and the rest."""
+        """Return the path of the crack [um] up to arrest, and beyond, for a figure of depths."""
         d, arrest = self.cracks.dataset, self.found()
         s = np.concatenate([[0.0], self.cracks.lengths])
         x = MICRO * self.cracks.places(np.concatenate([[self.about["x"]], d.x.values]))
@@ -66,6 +66,7 @@ class CrackSection:
         stop = s[-1] if arrest is None else arrest.tip
 
         def way(of: NDArray[np.float64]) -> dict[str, Any]:
+            """Return the coordinates of a part of the path."""
             depth = np.interp(of, s, z)
             inside = depth <= deepest
             return {"x": short(np.interp(of, s, x)[inside]), "z": short(place(depth[inside]))}
@@ -93,7 +94,7 @@ class CrackSection:
         }
 
     def _diagram(self, threshold: Threshold) -> dict[str, Any]:
-        """Kitagawa and Takahashi's diagram [µm, MPa]; a load that opens nothing is left out."""
+        """Return the Kitagawa diagram [um, MPa]; loads that open nothing are left out."""
         d = self.cracks.kitagawa(threshold)
         load = np.where(d["load"].values > 0.0, d["load"].values, np.nan)
         smooth = None if threshold.dS_0 is None else MEGA * threshold.dS_0

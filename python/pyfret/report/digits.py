@@ -10,7 +10,7 @@ __all__ = ["short"]
 
 
 def short(values: Any, digits: int = 4) -> Any:
-    """Numbers in a few digits as lists; what is no number becomes None."""
+    """Round numbers to a few digits, as lists; missing numbers become None."""
     array = np.asarray(values, dtype=float)
     with np.errstate(divide="ignore", invalid="ignore"):
         power = digits - 1 - np.floor(np.log10(np.abs(array)))

@@ -144,7 +144,7 @@ def life_section(life: Life) -> str:
 
 
 def yielded(result: Run) -> dict[str, Figure]:
-    """Figures of bodies that have yielded: the zone and what it leaves, of each body."""
+    """Return figures of each body that has yielded: the zone and the residual stress."""
     from pyfret import plot
 
     state = result.at(-1)
@@ -165,7 +165,7 @@ def yielded(result: Run) -> dict[str, Figure]:
 
 
 def drawing() -> str:
-    """The program that draws, plotly.js."""
+    """Return the program that draws, plotly.js."""
     try:
         from plotly.offline import get_plotlyjs
     except ImportError as absent:
@@ -203,7 +203,7 @@ def plan(result: Run) -> str:
 
 
 def cited(result: Run) -> str:
-    """The sources of the methods."""
+    """Return the sources of the methods."""
     rows = [
         f"<li><b>{html(s.what)}</b>: {html(s.text)}, doi:{html(s.doi)}</li>"
         for s in sources(result)
@@ -275,7 +275,7 @@ def image(caption: str, figure: Figure) -> str:
 
 
 def picture(caption: str, figure: Figure) -> str:
-    """A figure of matplotlib inside the page."""
+    """Return a figure of matplotlib for the page, with a caption."""
     file = io.BytesIO()
     figure.savefig(file, format="png", dpi=150)
     data = base64.b64encode(file.getvalue()).decode("ascii")

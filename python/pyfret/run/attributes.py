@@ -48,7 +48,7 @@ class OfRun(Labelled):
 
     @property
     def scene(self) -> Scene:
-        """The scene that was solved."""
+        """Return the scene that was solved."""
         if self._scene is None:
             self._scene = Scene.from_toml(self.dataset.attrs["scene"])
         return self._scene
@@ -80,7 +80,7 @@ class OfRun(Labelled):
         return str(self.dataset.attrs.get("doubts", "")).splitlines()
 
     def _yardstick(self, name: str) -> float:
-        """A number of the Hertz contact; a ValueError where there is none."""
+        """Return a number of the Hertz contact; a ValueError if there is none."""
         if name not in self.dataset.attrs:
             raise ValueError(
                 f"no {name}: these bodies have no Hertz contact (a flat, a punch, a rough surface, "

@@ -77,6 +77,7 @@ class CheckedArray(BackendArray):
         )
 
     def _read(self, key: tuple[Any, ...]) -> NDArray[Any]:
+        """Read a part of the array after checking its chunks."""
         entries = np.unique(np.atleast_1d(np.arange(self.shape[0])[key[0]]))
         self.checks.check(self.name, entries, self.shape[0])
         return np.asarray(self.variable[key].values)

@@ -102,10 +102,10 @@ def loops_of_corners(
     dissipated: NDArray[np.float64],
     grid: Grid,
 ) -> xr.Dataset:
-    """Numbers of loops that are known by their corners, arrays over (block, corner), and energy.
+    """Return numbers of loops from their corners, arrays over (block, corner), and energy.
 
-    What needs increments within a branch, such as the stiffness right after a reversal, is left
-    out.
+    Numbers that need increments within a branch, such as the stiffness right after a reversal, are
+    left out.
     """
     loop_numbers: list[dict[str, float]] = []
     for shift, force, energy in zip(delta, T, dissipated, strict=True):

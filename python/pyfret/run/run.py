@@ -119,7 +119,7 @@ class Run(OfRun):
 
     @property
     def direction(self) -> Literal["x", "y", "torsion"]:
-        """The fretting motion: the axis of the larger range of shear, torsion without shear."""
+        """Return the fretting motion: the axis with more shear, torsion without shear."""
         d = self.dataset
         ranges = {axis: float(np.ptp(d[f"T_{axis}"].values)) for axis in ("x", "y")}
         if not any(ranges.values()) and np.ptp(d.M_z.values) > 0.0:
@@ -162,7 +162,7 @@ class Run(OfRun):
 
     @property
     def dissipated_energy(self) -> xr.DataArray:
-        """Energy dissipated by friction since the start of the path, every increment.
+        """Return the energy dissipated by friction since the start, for every increment.
 
         In J, of a line contact in J/m.
         """
@@ -191,7 +191,7 @@ class Run(OfRun):
         return State(*self._kept(one_of(which, t)))
 
     def _kept(self, which: float) -> tuple[xr.Dataset, Scene]:
-        """The fields and scalars of an increment of :meth:`at`, and the scene."""
+        """Return the fields and scalars of an increment of :meth:`at`, and the scene."""
         if isinstance(which, bool) or not isinstance(which, numbers.Real):
             raise TypeError(
                 f"which = {which!r:.60}: must be an increment, such as 5, or -1 for the last that "
@@ -323,7 +323,7 @@ class Run(OfRun):
         return tables
 
     def _summed_loops(self) -> xr.Dataset:
-        """The loops along the motion, counted from 1, with the energy of all cycles so far."""
+        """Return the loops along the motion, counted from 1, with the energy so far."""
         loops = self.loops(direction=self.direction)
         total = loops.dissipated.cumsum("cycle")
         about = {**loops.dissipated.attrs, "long_name": "energy dissipated in the cycles so far"}

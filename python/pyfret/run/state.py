@@ -129,7 +129,7 @@ class State(OfRun):
         raise attribute_error("snapshot", name, names, self._elsewhere(name))
 
     def _elsewhere(self, name: str) -> dict[str, str]:
-        """Names that this has not, and how what they mean is got from it."""
+        """Return where a name is found that this object does not have."""
         hints = {}
         if name == "contact_radius":
             hints[name] = "of a line contact it is half_width"
@@ -191,7 +191,7 @@ class State(OfRun):
 
     @quantities
     def along_x(self, *, y: float = 0.0) -> xr.Dataset:
-        """Fields along the line of constant `y` [m], linear between the rows of cells."""
+        """Return the fields along the line of constant `y` [m], linear between rows."""
         rows = self.dataset.y.values
         if not rows[0] <= y <= rows[-1]:
             raise ValueError(f"y = {y}: must be {rows[0]} to {rows[-1]}, the rows of the grid")

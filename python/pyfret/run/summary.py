@@ -38,7 +38,7 @@ def energy_scale(unit: str) -> tuple[float, str]:
 
 
 def columns(result: Run, ends: xr.Dataset) -> list[list[str]]:
-    """Columns of the summary: a title, then a cell per branch."""
+    """Return the columns of the summary: a title, then a cell per branch."""
     hertz = "a_H" in result.dataset.attrs
     radius = ("a/a_H", 1 / result.a_H) if hertz else ("a [um]", 1e6)
     pressure = ("p_max/p_H", 1 / result.p_H) if hertz else ("p_max [MPa]", 1e-6)
@@ -155,7 +155,7 @@ def yield_ratio(result: Run) -> float:
 
 
 def far_from_yield(result: Run) -> list[str]:
-    """How far bodies that may yield are from it, where none has."""
+    """Return how far bodies that may yield are from it, if none has."""
     ratio = yield_ratio(result)
     if not 0.0 < ratio < 1.0:
         return []
@@ -174,7 +174,7 @@ def strain_at_rim(result: Run) -> list[str]:
 
 
 def cycle_lines(result: Run) -> list[str]:
-    """A line for every cycle along every direction that is driven."""
+    """Return a line for every cycle along every direction that is driven."""
     lines = []
     for direction in directions(result):
         loops = result.loops(direction=direction)
@@ -209,7 +209,7 @@ def stiffness(of: xr.Dataset) -> str:
 
 
 def directions(result: Run) -> list[Literal["x", "y", "torsion"]]:
-    """The fretting motions that the path drives."""
+    """Return the fretting motions that the path drives."""
     motions: list[tuple[Literal["x", "y", "torsion"], tuple[str, str]]] = [
         ("x", ("T_x", "delta_x")),
         ("y", ("T_y", "delta_y")),

@@ -56,7 +56,7 @@ SHOWN_IN = {
 
 
 def heading(d: xr.Dataset, name: str) -> tuple[float, str]:
-    """The factor of a scalar, and its heading with the unit."""
+    """Return the factor of a scalar for a table, and its heading with the unit."""
     unit = str(d[name].attrs["units"])
     factor, shown = SHOWN_IN.get(unit, (1.0, unit))
     return factor, ENDS[name] if unit == "1" else f"{ENDS[name]} [{shown}]"
@@ -68,7 +68,7 @@ def has(name: str, scene: Scene) -> bool:
 
 
 def ends_table(result: Run) -> str:
-    """Numbers at the end of every branch, with their error bars where there are any."""
+    """Return the numbers at the end of every branch, with their error bars if there are any."""
     ends = result.branches()
     bars = result.error_bars().sel(part="total") if result.dataset.attrs.get("error_bars") else None
     names = [name for name in ENDS if name in ends and has(name, result.scene)]
@@ -92,7 +92,7 @@ def ends_table(result: Run) -> str:
 
 
 def cycles_table(result: Run, direction: Any) -> str:
-    """Energies and stiffness of every closed cycle."""
+    """Return energies and stiffness of every closed cycle."""
     loops = result.loops(direction=direction)
     if not loops.sizes["cycle"]:
         return ""
@@ -120,7 +120,7 @@ def run_html(result: Run) -> str:
 
 
 def state_html(state: State) -> str:
-    """An increment as a table: its loads and what they do."""
+    """Return an increment as a table: its loads, the contact and its motions."""
     d = state.dataset
     rows = []
     for name in ENDS:

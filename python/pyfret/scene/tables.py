@@ -42,7 +42,7 @@ FACTORS = {"MPa": 1e6}
 
 
 def table(heading: Sequence[str], rows: Iterable[Sequence[str]], *, words: bool = False) -> str:
-    """A table of cells that are HTML already; it scrolls where it is too wide.
+    """Return a table of cells that are HTML already; it scrolls if it is too wide.
 
     `words` are broken and begin on the left.
     """
@@ -66,7 +66,7 @@ def number(value: float) -> str:
 
 
 def material(of: Any) -> str:
-    """A material in words."""
+    """Describe a material in words."""
     if not np.isfinite(of.E):
         return "rigid"
     return f"E = {number(of.E / 1e9)} GPa, &nu; = {number(of.nu)}"
@@ -82,7 +82,7 @@ def body_rows(name: str, body: Body) -> list[list[str]]:
 
 
 def scene_html(scene: Scene) -> str:
-    """A scene as a table, and its load path as another."""
+    """Return a scene as a table, and its load path as another."""
     grid, hertz = scene.grid, scene.hertz
     cells = f"{grid.nx} cells of {length(grid.dx)}"
     if not grid.plane_strain:
@@ -108,7 +108,7 @@ def plane_strain(grid: Grid) -> str:
 
 
 def given(branch: Branch, grid: Grid | None = None) -> str:
-    """Loads and motions that a branch leads to."""
+    """Describe the loads and motions at the end of a branch."""
     parts = []
     for name, (symbol, unit) in GIVEN.items():
         value = getattr(branch, name)
@@ -122,7 +122,7 @@ def given(branch: Branch, grid: Grid | None = None) -> str:
 
 
 def path_html(path: LoadPath, grid: Grid | None = None) -> str:
-    """A load path as a table: a row for each branch."""
+    """Return a load path as a table: a row for each branch."""
     if not path.branches:
         return "<p>No load path: give it to <code>solve(scene, path)</code>.</p>"
     rows = [

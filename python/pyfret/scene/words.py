@@ -23,7 +23,7 @@ ANGLES = frozenset(("angle", "phase"))
 
 
 def shape_in_words(shape: Any) -> str:
-    """A surface: its kind and its numbers, as HTML."""
+    """Describe a surface: its kind and its numbers, as HTML."""
     if isinstance(shape, Sum):
         return " + ".join(shape_in_words(part) for part in shape.parts)
     if isinstance(shape, SurfaceMap):
@@ -43,14 +43,14 @@ def shape_in_words(shape: Any) -> str:
 
 
 def number_in_words(key: str, value: float) -> str:
-    """A number of a shape with its unit."""
+    """Format a number of a shape with its unit."""
     if key in PLAIN:
         return in_words(value)
     return f"{in_words(math.degrees(value))}&deg;" if key in ANGLES else length(value)
 
 
 def friction_in_words(scene: Scene) -> str:
-    """The friction of a scene, as HTML."""
+    """Describe the friction of a scene, as HTML."""
     friction = scene.friction
     if not isinstance(friction, Friction) or not math.isfinite(friction.mu):
         return "none slips"

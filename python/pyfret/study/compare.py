@@ -178,7 +178,7 @@ def material_names(candidate: Candidate) -> list[str]:
 
 
 def own_rows(candidates: Mapping[str, Candidate]) -> dict[str, list[float | str]]:
-    """The rows that the candidates bring along; NaN or an empty text where one has none."""
+    """Collect the rows that the candidates bring along; NaN or "" if a candidate has none."""
     for label, of in candidates.items():
         if not isinstance(of.rows, Mapping):
             raise TypeError(
@@ -251,6 +251,7 @@ def on_larger_cells(grid: Grid, times: int) -> Grid:
     """Return a grid of the same size with larger cells."""
 
     def fewer(n: int) -> int:
+        """Return a number of cells divided by `times`, at least one."""
         return max(-(-n // times), 2)
 
     if times == 1:

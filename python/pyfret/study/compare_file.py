@@ -128,6 +128,7 @@ def read_wear(value: Any, where: str, materials: Materials) -> Any:
     """Read laws of wear: ``{ k = .. }`` or ``{ alpha = .. }``, one or one for each layer."""
 
     def law(table: Any) -> Any:
+        """Read one law."""
         numbers = check_table(table, LAW, where)
         kind = [name for name in LAWS if name in numbers]
         if len(kind) != 1:
@@ -142,6 +143,7 @@ def read_conductor(value: Any, where: str, materials: Materials) -> Any:
     """Read conductors: the name of a material, or its numbers, one or one for each layer."""
 
     def conductor(entry: Any) -> Conductor:
+        """Read one conductor."""
         if isinstance(entry, str):
             return Conductor.from_material(materials[entry])
         return Conductor(**check_table(entry, CONDUCTOR, where))

@@ -197,7 +197,7 @@ class Comparison(Labelled, Figured):
         return Preference(best, [name for name in range_of if name not in best])
 
     def _same_material(self, of: str) -> bool:
-        """Whether a stress is one of the same material in all candidates that have it."""
+        """Return whether a stress belongs to the same material in all candidates that have it."""
         layers, d = self.dataset.attrs.get("layer_materials"), self.dataset
         if NUMBERS[of].si != "Pa" or layers is None:
             return True

@@ -62,6 +62,7 @@ def value_parts(of: Any, home: str | None, within: tuple[int, ...]) -> Any:
     deeper = (*within, id(of))
 
     def all_of(values: Any) -> tuple[Any, ...]:
+        """Convert several values."""
         return tuple(value_parts(value, home, deeper) for value in values)
 
     if (version := getattr(of, "version", None)) is not None and callable(of):

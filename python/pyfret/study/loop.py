@@ -125,6 +125,7 @@ def run(
     design.check(scene)
 
     def go_through(store: Store | Columns) -> None:
+        """Solve all points that are left, and write their outcomes."""
         points = store.open_points(again=again)
         done, total = len(design) - len(points), len(design)
         costs = Costs()
@@ -228,6 +229,7 @@ def outcomes(
     like = middle_scene(design, source)
 
     def submit(to: Executor, n: int) -> Future[Outcome]:
+        """Hand a point to a worker."""
         return to.submit(
             solve_point,
             scenes[n],

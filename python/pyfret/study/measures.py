@@ -59,6 +59,7 @@ def cycle_measure(name: str) -> Callable[[Result], float | Answer]:
     """Make a measure: a number of the last closed cycle with its error; NaN without a cycle."""
 
     def measure(result: Result) -> float | Answer:
+        """Return the number with its error."""
         loops = result.loops(direction=next(iter(directions(result)), "x"))
         last = {
             key: float(column[-1]) if column.size else math.nan for key, column in loops.items()

@@ -58,6 +58,7 @@ def enlarge_grid(grid: Grid) -> Grid:
     """Return the grid with more cells of the same size; even numbers stay even."""
 
     def more(n: int) -> int:
+        """Return a number of cells enlarged by the factor."""
         return n + 2 * max(round(n * (GROWTH - 1) / 2), 1)
 
     return grid.replace(nx=more(grid.nx), ny=grid.ny if grid.plane_strain else more(grid.ny))

@@ -280,6 +280,7 @@ def worn_through(run: WearResult, part: float, body_number: int) -> Answer:
     """
 
     def cycles_to(share: float) -> Cycles:
+        """Return the cycles at which a share of the thickness is worn."""
         return run.cycles_to(part_of_coating=share, body_number=body_number)
 
     best, first = cycles_to(1.0), cycles_to(1.0 / (1.0 + part))

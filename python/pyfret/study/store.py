@@ -249,6 +249,7 @@ def reject_misfits(outcome: Outcome, design: Design, shapes: dict[str, dict[str,
     taken = {*POINT_VARIABLES, *design.parameters, *design.sizes}
 
     def failed(reason: str) -> Outcome:
+        """Return the outcome as failed for a reason."""
         return replace(outcome, status=FAILED, reason=reason, measures={})
 
     for name, variable in outcome.measures.items():

@@ -238,6 +238,7 @@ def find_threshold(
     tried: dict[float, float] = {}
 
     def log_margin(load: float, coarser: int = 1) -> float:
+        """Return the logarithm of the margin under a load."""
         scene = scene_of(source, {**other_values, parameter: load})
         if coarser > 1:
             scene = scene.replace(grid=widen_cells(scene.grid, coarser))
@@ -248,6 +249,7 @@ def find_threshold(
         return min(math.log(measured / value), 700.0)
 
     def solved_margin(log_load: float) -> float:
+        """Return the logarithm of the margin, with the load noted."""
         load = math.exp(log_load)
         if load not in tried:
             tried[load] = log_margin(load)
@@ -430,6 +432,7 @@ def fit_limits(
         return solved[log_L]
 
     def scatter(log_L: float) -> float:
+        """Return the scatter of computed over measured thresholds."""
         return float(np.sqrt(np.sum(thresholds(log_L)[1] ** 2) / (len(tests) - 2)))
 
     def misfit(log_L: float) -> float:

@@ -189,6 +189,7 @@ def end_with_parent(parent: int) -> None:
     """End this process once its parent has ended."""
 
     def watch() -> None:
+        """End the process once its parent has ended."""
         while os.getppid() == parent:
             time.sleep(WATCH)
         os._exit(1)

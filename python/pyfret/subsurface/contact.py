@@ -152,7 +152,7 @@ def with_contact(below: Stress, state: State, *, anywhere: bool) -> Stress:
 def loaded_by(
     state: State, body_number: int, *, bulk: bool, residual: Sequence[ArrayLike] | None
 ) -> _core.Subsurface:
-    """A body under the tractions of an increment and the residual stress of its plastic strain."""
+    """Return a body under the tractions of an increment and its stress by plastic strain."""
     p, q_x, q_y = (state.tractions()[name] for name in ("p", "q_x", "q_y"))
     return fields.subsurface(
         state.body(body_number),

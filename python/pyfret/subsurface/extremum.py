@@ -99,24 +99,24 @@ class Extremum(NamedTuple):
 
     @property
     def layer_name(self) -> str:
-        """Name of the layer, such as "coating 1" or "the substrate"."""
+        """Return the name of the layer, such as "coating 1" or "the substrate"."""
         if self.coatings is None:
             return f"layer {self.layer}"
         return layer_name(self.layer, self.coatings)
 
     @property
     def x(self) -> float:
-        """Place along x [m]."""
+        """Return the place along x [m]."""
         return self.place.x
 
     @property
     def y(self) -> float:
-        """Place along y [m]."""
+        """Return the place along y [m]."""
         return self.place.y
 
     @property
     def z(self) -> float:
-        """Depth [m]."""
+        """Return the depth [m]."""
         return self.place.z
 
     def format_margin(self) -> str:

@@ -55,7 +55,7 @@ def choose_depths(
 
 
 def loaded_length(grid: Grid, *loads: ArrayLike | None) -> float:
-    """Half the longer side of the box around the cells that are loaded [m], or of the grid."""
+    """Return half the longer side of the box around the loaded cells, or of the grid [m]."""
     loaded_cells = [plain(load, "a traction") != 0.0 for load in loads if load is not None]
     if not any(load.any() for load in loaded_cells):
         return grid.nx * grid.dx / 2
@@ -78,7 +78,7 @@ def coordinates(
     y: float | None,
     azimuth: Angle | None = None,
 ) -> dict[str, object]:
-    """Depths with their layers, and x and y: the cells, or where they are constant."""
+    """Return depths with their layers, and x and y: of the cells, or constant."""
     metres = {"units": "m"}
     coords: dict[str, object] = {
         "z": ("depth", z, {"units": "m", "long_name": "depth below the surface"}),
@@ -109,7 +109,7 @@ def subsurface(
     rim: bool = False,
     stick: ArrayLike | None = None,
 ) -> _core.Subsurface:
-    """A body with the tractions p, q_x, q_y on it, and what stress it has without them."""
+    """Return a body under the tractions p, q_x, q_y, with bulk and residual stress."""
     p, q_x, q_y = loads
     return _core.Subsurface(
         body,
@@ -197,7 +197,7 @@ def stress(
 def sampled_stress(
     below: _core.Subsurface, body: Body, grid: Grid, z: ArrayLike | None, at: Line, length: float
 ) -> Stress:
-    """The stress of what is loaded, on planes, below a line or below a point."""
+    """Return the stress under the loads on planes, below a line or below a point."""
     line = Line(*_line(z, at.x, at.y), at.azimuth)
     sampled = _sampled(below, body, grid, choose_depths(body, z, length), line, displacement=False)
     materials = [*(coating.material for coating in body.coatings), body.substrate]
@@ -246,7 +246,7 @@ def _sampled(
     *,
     displacement: bool,
 ) -> xr.Dataset:
-    """Stress or displacement on planes, below a line or below a point."""
+    """Return stress or displacement on planes, below a line or below a point."""
     depths, layers = depths_and_layers
     pairs = list(zip(depths, layers, strict=True))
     x, y, azimuth = at
@@ -315,7 +315,7 @@ def write(
     of: Sequence[str],
     title: str,
 ) -> None:
-    """Write what is asked for of what is loaded, plane by plane."""
+    """Write measures of the stress, plane by plane."""
     depths, layers = choose_depths(body, z, length)
     once = [n for n, depth in enumerate(depths) if n == 0 or depth != depths[n - 1]]
     z_once, layer_once = [depths[n] for n in once], [layers[n] for n in once]

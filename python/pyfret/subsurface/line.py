@@ -39,7 +39,7 @@ class Line(NamedTuple):
         return {"x": 0.0, "y": np.pi / 2}.get(self.axis, self.azimuth or 0.0)
 
     def place(self, x: Any, y: Any) -> Any:
-        """The place along the line that is nearest to x, y [m], numbers or arrays."""
+        """Return the place along the line that is nearest to x, y [m], numbers or arrays."""
         if self.azimuth is None:
             return x if self.axis == "x" else y
         assert self.x is not None
@@ -54,7 +54,7 @@ def line_through_point(x: float, y: float, azimuth: float) -> Line:
 
 
 def line_of(values: xr.Dataset | xr.DataArray) -> Line:
-    """The line of a section by its coordinates."""
+    """Return the line of a section by its coordinates."""
     if "s" not in values.dims:
         at = [None if name in values.dims else float(values[name]) for name in ("x", "y")]
         return Line(*at)
@@ -83,7 +83,7 @@ def fields_on(state: State, line: Line) -> xr.Dataset:
 
 
 def cut(d: xr.Dataset, grid: _core.Grid, line: Line) -> xr.Dataset:
-    """The fields of a grid on a line of it, as :func:`fields_on`.
+    """Interpolate the fields of a grid on a line of it, as :func:`fields_on`.
 
     Fields may have other dimensions before x and y, which stay.
     """
@@ -105,6 +105,7 @@ def cut(d: xr.Dataset, grid: _core.Grid, line: Line) -> xr.Dataset:
     (i_left, right, u), (near, far, v) = weights
 
     def on_line(field: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Interpolate one field."""
         low = field[..., i_left, near] * (1 - v) + field[..., i_left, far] * v
         high = field[..., right, near] * (1 - v) + field[..., right, far] * v
         return low * (1 - u) + high * u
@@ -129,7 +130,10 @@ def main_shear(cut: xr.Dataset) -> str:
 def _interpolation_weights(
     cells: NDArray[np.float64], at: NDArray[np.float64]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
-    """The cells on both sides of places and the share of the second; at the border the last one."""
+    """Return the cells on both sides of places and the share of the second.
+
+    At the border it is the last cell.
+    """
     if cells.size == 1:
         none = np.zeros(at.size, dtype=np.int64)
         return none, none, np.zeros(at.size)

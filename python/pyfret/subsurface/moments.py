@@ -29,6 +29,7 @@ def states_of(
     """
 
     def fields(name: str, kind: type) -> list[Any]:
+        """Return a field of all snapshots."""
         return [
             np.ascontiguousarray(snapshot.dataset[name].values, dtype=kind)
             for snapshot in snapshots
@@ -64,6 +65,7 @@ def states_of_increments(
     bulk_stress = variables["sigma_B1" if body_number == 1 else "sigma_B"].values
 
     def fields(name: str, kind: type) -> list[Any]:
+        """Return a field of all increments."""
         field = variables[name]
         return [np.ascontiguousarray(field.isel(saved=n).values, dtype=kind) for n in places]
 
@@ -91,6 +93,7 @@ def moments_of(
     """
 
     def moments(which: Sequence[int] | None) -> _core.States | None:
+        """Return the states of some increments, or the one before the cycle for None."""
         if which is None and before is None:
             return None
         increments = [before] if which is None else [int(kept[n]) for n in which]

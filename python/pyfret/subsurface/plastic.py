@@ -69,11 +69,12 @@ def body_of(state: State, body_number: int) -> _core.PlasticBody:
 
 
 def _identify(state: State, body_number: int) -> _Of:
+    """Return what identifies a body of a state."""
     return _Of(str(state.dataset.attrs["scene"]), body_number, state.scene)
 
 
 def _strained(state: State, body_number: int) -> _Strained:
-    """The points of a body that have yielded, as the core takes them."""
+    """Return the yielded points of a body as the core takes them."""
     columns = columns_of(state)
     in_body = columns[YIELDED.index("yielded_body")] == body_number
     columns = [np.ascontiguousarray(column[in_body]) for column in columns]
@@ -93,7 +94,7 @@ def eigenstress(state: State, body_number: int) -> list[_core.Eigenstress | None
 
 
 def plastic_points(state: State, body_number: int) -> xarray.Dataset:
-    """The points of a body that have yielded: strain, equivalent strain, place and layer."""
+    """Return the yielded points of a body: strain, equivalent strain, place and layer."""
     strained = _strained(state, body_number)
     columns = dict(zip(YIELDED, strained.columns, strict=True))
     grid = body_of(state, body_number).grid(strained.columns)
@@ -154,9 +155,11 @@ class PlasticState:
 
     @cached_property
     def _grid(self) -> dict[str, Any]:
+        """Return the volume grid of the yielded points."""
         return _body(self._of).grid(self._columns)
 
     def _column(self, name: str) -> NDArray[np.float64]:
+        """Return a column of the yielded points."""
         return self._columns[YIELDED.index(name)]
 
     @cached_property
@@ -174,6 +177,7 @@ class PlasticState:
         scalar, tensor = ("z", "y", "x"), ("z", "component", "y", "x")
 
         def over_y_x(name: str) -> NDArray[np.float64]:
+            """Return a field of the core with y before x."""
             return np.swapaxes(fields[name], -1, -2)
 
         grid = self._grid

@@ -123,7 +123,7 @@ class Stress(Labelled, Figured):
         return "\n".join(lines)
 
     def principal(self) -> xr.Dataset:
-        """Principal values, the largest first, and unit vectors of their directions."""
+        """Return the principal values, the largest first, and unit vectors of their directions."""
         pattern = self.dataset[COMPONENTS[0]]
         values, directions = _core.principal(self._tensor())
         shape = pattern.shape
@@ -235,6 +235,7 @@ class Stress(Labelled, Figured):
         return self._on_borders("stick border")
 
     def _on_borders(self, zone: str) -> Stress:
+        """Return the stress on the borders of a zone."""
         along = self._section_axis()
         surface = self.dataset.isel(depth=0)
         if float(surface.z) != 0.0:
@@ -275,6 +276,7 @@ class Stress(Labelled, Figured):
             )
 
     def _section_axis(self) -> str:
+        """Return the name of the dimension along the section."""
         dims = self.dataset[COMPONENTS[0]].dims
         if len(dims) != 2:
             raise ValueError(
@@ -283,7 +285,7 @@ class Stress(Labelled, Figured):
         return str(dims[1])
 
     def _repr_html_(self) -> str:
-        """The largest samples in every layer, for notebooks."""
+        """Return the largest samples in every layer, for notebooks."""
         layers = self.dataset.layer.values
         rows = []
         for name in ("von_mises", "tresca", "s_1", "hydrostatic"):

@@ -106,7 +106,7 @@ class Unloaded:
         return x, y
 
     def _depth(self, body_number: int) -> NDArray[np.float64]:
-        """How deep the surface of a body lies without load [m], shape (nx, ny)."""
+        """Return the depth of the surface of a body without load [m], shape (nx, ny)."""
         state = self._state
         if not state.body(body_number).yields:
             grid = state.scene.grid

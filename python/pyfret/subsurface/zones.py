@@ -55,7 +55,7 @@ class Zone(NamedTuple):
 
 @quantities
 def zone(state: State, of: Literal["contact", "stick"], y: float = 0.0) -> Zone:
-    """The outermost borders of the contact or of its stick zone along the line of constant y."""
+    """Return the outermost borders of contact or stick zone along a line of constant y."""
     d, grid = state.dataset, state.scene.grid
     in_zone = d[of].values.astype(bool)
     y = float(d.y[0]) if grid.plane_strain else y

@@ -84,7 +84,7 @@ def in_unit(value: float, units: str) -> str | None:
 
 
 def spent(d: xr.Dataset, energy: float) -> Cycles:
-    """Cycles at which the dissipated energy [J] reaches a value: linear within a jump."""
+    """Return the cycles at which the dissipated energy reaches `energy` [J]."""
     cycles, ends = (np.asarray(d[name].values, float) for name in ("cycles", "dissipated"))
     before = float(cycles[0] - d["length"][0])
     start = float(ends[0] - d["dissipated_per_cycle"][0] * d["length"][0])
@@ -121,7 +121,7 @@ def changed(d: xr.Dataset, mu: float, fresh: float) -> Cycles:
 
 
 def reached(d: xr.Dataset, name: str, target: float) -> Cycles:
-    """Cycles at which a growing number of the jumps reaches a value, by parabolas.
+    """Return the cycles at which a growing number of the jumps reaches a value, by parabolas.
 
     A run that ends where a coating is worn through may miss its bottom by rounding.
     """

@@ -104,9 +104,10 @@ class WearResult(Saveable, Labelled, Figured):
         return as_table(loops.assign_coords(block_cycles=d.block_cycles))
 
     def along(self) -> xr.Dataset:
-        """Fields of the blocks on the line along the shear, through the centre of the last contact.
+        """Return the fields of the blocks on the line along the shear.
 
-        The line has the direction of the largest force in the last friction loop.
+        The line passes through the centre of the last contact, and has the direction of the largest
+        force in the last friction loop.
 
         Returns
         -------
@@ -251,11 +252,12 @@ class WearResult(Saveable, Labelled, Figured):
 
     @property
     def worn_scene(self) -> Scene:
-        """The scene with the worn surfaces of the last block as its shapes, for a run on them."""
+        """Return the scene with the worn surfaces of the last block as its shapes."""
         scene, kept = self.scene, 1.0 - self.debris_kept
         grid = scene.grid
 
         def worn(body: Body, depth: xr.DataArray) -> Body:
+            """Return a body with its worn surface as a shape."""
             heights = -kept * np.asarray(depth.values, dtype=float)
             if not heights.any():
                 return body
@@ -278,7 +280,7 @@ class WearResult(Saveable, Labelled, Figured):
         return float(self.table.get("debris_kept", 0.0))
 
     def summary(self) -> str:
-        """Depths, volumes, energy, jumps, laws and what happened to the coatings, as text."""
+        """Return depths, volumes, energy, jumps, laws and events of the coatings as text."""
         d = self.dataset
         last = {name: float(d[name][-1]) for name in d.data_vars if d[name].dims == ("jump",)}
         volume, energy = (d[name].attrs["units"] for name in ("volume1", "dissipated"))
@@ -355,7 +357,7 @@ class WearResult(Saveable, Labelled, Figured):
 
     @property
     def doubts(self) -> list[str]:
-        """Doubts about the scene, the wear and the grid, one sentence each."""
+        """List warnings on the scene, the wear and the grid, one sentence each."""
         doubts = str(self.dataset.attrs.get("doubts", "")).splitlines()
         cells = float(self.dataset["slip_cells"][-1]) if "slip_cells" in self.dataset else math.inf
         if float(self.dataset["stick_ratio"][-1]) > 0.0 and cells < FEWEST_SLIP_CELLS:
@@ -377,7 +379,7 @@ class WearResult(Saveable, Labelled, Figured):
         return list(self.dataset.attrs["events"])
 
     def _repr_html_(self) -> str:
-        """Cycles and depths of the blocks, for notebooks."""
+        """Return cycles and depths of the blocks, for notebooks."""
         d = self.dataset
         at = [
             int(abs(d.cycles.values - block_cycles).argmin())
@@ -406,7 +408,7 @@ class WearResult(Saveable, Labelled, Figured):
 
 
 def written(law: dict[str, Any]) -> str:
-    """A law in words."""
+    """Describe a law in words."""
     if law.get("own"):
         return "a function"
     name, unit = ("k", "m^2/N") if "k" in law else ("alpha", "m^3/J")

@@ -177,7 +177,7 @@ def solve_until_refused(
 
 
 def surfaces(start: WearResult) -> tuple[float, float, list[NDArray[np.float64]], float]:
-    """The worn surfaces at the end of a run."""
+    """Return the worn surfaces at the end of a run as the core takes them."""
     if not isinstance(start, WearResult):
         raise TypeError(f"start = {start!r:.60}: must be the result of a run of wear")
     d = start.dataset

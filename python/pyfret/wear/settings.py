@@ -177,7 +177,7 @@ class Wear(Replaceable):
     @classmethod
     @quantities
     def from_settings(cls, wear: Wear | None, settings: Mapping[str, Any]) -> Wear:
-        """The settings of `wear` with some exchanged, or made of these alone.
+        """Return the settings of `wear` with some replaced, or made of `settings` alone.
 
         Raises
         ------
@@ -194,7 +194,7 @@ class Wear(Replaceable):
         return cls(**settings)
 
     def document(self) -> tuple[dict[str, Any], list[list[Function]]]:
-        """The table of a scene file, and the functions of each body, which no file can hold."""
+        """Return the table of a scene file, and the functions of each body beside it."""
         table = {name: value for name, value in vars(self).items() if value is not None}
         if self.branch_counts is not None:
             counts = items(self.branch_counts, "branch_counts")
@@ -218,7 +218,7 @@ class Wear(Replaceable):
 
 
 def fix(law: Archard | DissipatedEnergy) -> None:
-    """The pairs of a factor as tuples of numbers.
+    """Convert the pairs of a factor to tuples of numbers.
 
     Raises
     ------
@@ -243,14 +243,14 @@ def fix(law: Archard | DissipatedEnergy) -> None:
 
 
 def listed(laws: Law | Sequence[Law | None] | None) -> list[Law | None]:
-    """The laws of a body, none or one or several, in a list."""
+    """Return the laws of a body as a list: none, one or several."""
     if laws is None:
         return []
     return items(laws, "laws") if isinstance(laws, list | tuple) else [laws]  # type: ignore[list-item]
 
 
 def check_laws(laws: Law | Sequence[Law | None] | None, name: str) -> None:
-    """Refuse what is no law of wear, by the name of its argument.
+    """Refuse a value that is no law of wear; `name` is the name of the argument.
 
     Raises
     ------
@@ -274,7 +274,7 @@ def own(laws: Law | Sequence[Law | None] | None) -> list[Function]:
 
 
 def read(text: str) -> Wear:
-    """The settings of a table ``[wear]`` of a scene file or a store.
+    """Read the settings of a table ``[wear]`` of a scene file or a store.
 
     Raises
     ------
@@ -295,7 +295,7 @@ def read(text: str) -> Wear:
 
 
 def law_of(table: dict[str, Any]) -> Archard | DissipatedEnergy:
-    """The law of a table of a scene file."""
+    """Make the law of a table of a scene file."""
     law = dict(table)
     if "factor" in law:
         law["factor"] = (law["factor"]["of"], [tuple(pair) for pair in law["factor"]["table"]])
@@ -305,7 +305,7 @@ def law_of(table: dict[str, Any]) -> Archard | DissipatedEnergy:
 
 
 def written(law: Law | None) -> dict[str, Any]:
-    """A law as the table of a scene file."""
+    """Write a law as the table of a scene file."""
     if law is None:
         # A layer that does not wear.
         return {"k": 0.0}

@@ -114,6 +114,7 @@ def connect(app: Any, sessions: Sessions, jobs: Jobs, measured: Path | None) -> 
         return changes
 
     def scene_event(context: Context, event: Any) -> dict[str, Any]:
+        """Change the scene by an event."""
         named_scene, doubt = change_scene(context, event)
         if named_scene is None:
             assert doubt is not None
@@ -136,6 +137,7 @@ def connect(app: Any, sessions: Sessions, jobs: Jobs, measured: Path | None) -> 
         return changed
 
     def written(context: Context, name: str, judged: Any) -> dict[str, Any]:
+        """Write what the page shows as files."""
         criterion = (judged or {}).get("criterion", "smith_watson_topper")
         folder = sessions.folder_of(context.session)
         content = write_file(name, context.scene, context.names, criterion, folder)

@@ -35,6 +35,7 @@ def connect_answers(app: Any, sessions: Sessions, jobs: Jobs) -> None:
     dash = needed("dash", "explore")
 
     def outputs(*, again: bool) -> list[Any]:
+        """List the outputs of an answer."""
         slots = [
             ("state", "children"),
             ("headline", "children"),
@@ -48,6 +49,7 @@ def connect_answers(app: Any, sessions: Sessions, jobs: Jobs) -> None:
         return [dash.Output(*slot, allow_duplicate=again) for slot in slots]
 
     def shown(answer: PageAnswer, scene: Any, names: dict[str, str], state: str) -> list[Any]:
+        """Return the contents of the outputs for an answer."""
         rows = [number.as_row() for number in answer.numbers]
         at_fields = scene.doubts()
         doubts = [doubt_of_sentence(scene, text) for text in answer.doubts if text not in at_fields]
@@ -66,6 +68,7 @@ def connect_answers(app: Any, sessions: Sessions, jobs: Jobs) -> None:
         return [state, headline, doubted, render_numbers(rows), *figures]
 
     def refused(scene: Any, error: Exception) -> list[Any]:
+        """Return the contents of the outputs for a refusal."""
         doubt = doubt_of_sentence(scene, str(error))
         return ["no answer", dash.no_update, render_doubt([doubt]), *[dash.no_update] * 5]
 
@@ -88,7 +91,7 @@ def connect_answers(app: Any, sessions: Sessions, jobs: Jobs) -> None:
         prevent_initial_call=True,
     )
     def show_preview(packed: Any, session: Any, counts: Any, before: Any) -> list[Any]:
-        """Answer at once, in few increments."""
+        """Answer in few increments."""
         if not session or packed == before:
             raise dash.exceptions.PreventUpdate
         scene, names = sessions.unpack(session, packed)

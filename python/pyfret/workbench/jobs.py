@@ -46,7 +46,7 @@ class Job:
         return int(done), int(total)
 
     def result(self) -> dict[str, Any]:
-        """Return what the run came to: numbers and figures, or why there are none."""
+        """Return the result of the run: numbers and figures, or why there are none."""
         if self.cancelled:
             return {"refused": "cancelled"}
         try:

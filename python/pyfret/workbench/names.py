@@ -45,6 +45,7 @@ def name_of(elastic: Elastic, preferred: str | None = None) -> str:
     constants = material_names()
 
     def matches(name: str) -> bool:
+        """Return whether a material has these constants."""
         E, nu = constants.get(name, (0.0, None))
         return elastic.E == E and elastic.nu == (NU if nu is None else nu)
 

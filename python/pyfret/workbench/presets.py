@@ -20,7 +20,7 @@ Parts = tuple[str, Any, Sequence[tuple[str, float]]]
 
 
 def ball_on_coated_flat() -> Preset:
-    """An alumina ball on titanium with 3 um of titanium nitride."""
+    """Build an alumina ball on titanium with 3 um of titanium nitride."""
     path = LoadPath.start().normal(10.0).cycles(1, T_x=3.0)
     ball = ("alumina", Sphere(R=5e-3), ())
     flat = ("titanium_6Al4V", shapes.Flat(), [("TiN", 3e-6)])
@@ -28,7 +28,7 @@ def ball_on_coated_flat() -> Preset:
 
 
 def pad_with_bulk_stress() -> Preset:
-    """A cylindrical pad on a fatigue specimen: forces per metre, bulk stress in phase."""
+    """Build a cylindrical pad on a fatigue specimen: forces per metre, bulk stress in phase."""
     path = LoadPath.start().normal(200e3)
     for sign in (1.0, -1.0, 1.0):
         path = path.force(T_x=sign * 60e3, sigma_B=sign * 60e6)
@@ -54,7 +54,7 @@ def connector() -> Preset:
 
 
 def rough_ball() -> Preset:
-    """A steel ball with a rough surface on a steel flat."""
+    """Build a steel ball with a rough surface on a steel flat."""
     rough = shapes.Rough(rms=50e-9, hurst=0.8, longest=100e-6, shortest=25e-6)
     ball = ("steel_100Cr6", Sphere(R=5e-3) + rough, ())
     path = LoadPath.start().normal(10.0).cycles(1, T_x=3.0)

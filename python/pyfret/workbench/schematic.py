@@ -109,6 +109,7 @@ def add_loads(figure: Any, scene: Scene, half: float) -> None:
     tangential = next((texts[k] for k in ("T_x", "T_y", "delta_x", "M_z") if k in texts), "")
 
     def arrow(tail: tuple[float, float], head: tuple[float, float], colour: str) -> None:
+        """Draw an arrow."""
         figure.add_annotation(
             x=head[0],
             y=head[1],
@@ -125,6 +126,7 @@ def add_loads(figure: Any, scene: Scene, half: float) -> None:
         )
 
     def label(place: tuple[float, float], text: str, anchor: str = "center") -> None:
+        """Write a label."""
         figure.add_annotation(x=place[0], y=place[1], text=text, showarrow=False, xanchor=anchor)
 
     if "W" in texts:

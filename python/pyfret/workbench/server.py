@@ -67,7 +67,7 @@ class Page:
         self._stops.append(action)
 
     def stop(self) -> None:
-        """End it, its background runs and its folder."""
+        """End the server, its background runs and its folder."""
         for action in self._stops:
             action()
         self._stops.clear()
@@ -103,6 +103,7 @@ def guard(app: Any, token: str, port: int) -> None:
     hashes = " ".join(app.csp_hashes())
 
     def refuse() -> Any:
+        """Refuse a request from elsewhere."""
         request = flask.request
         if request.host not in hosts:
             return "This page is at 127.0.0.1 alone.", 403
@@ -120,6 +121,7 @@ def guard(app: Any, token: str, port: int) -> None:
         return None
 
     def add_headers(response: Any) -> Any:
+        """Forbid other pages to embed this one."""
         response.headers.update(HEADERS)
         response.headers["Content-Security-Policy"] = POLICY.format(hashes=hashes)
         return response

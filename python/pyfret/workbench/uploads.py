@@ -75,6 +75,7 @@ def add_upload(app: Any, sessions: Sessions, token: str) -> None:
 
     @app.server.route(f"/{token}/upload/<session>/<drop>", methods=["POST"])  # type: ignore[untyped-decorator]
     def upload(session: str, drop: str) -> Any:
+        """Store one file of a drop."""
         request = flask.request
         length = request.content_length
         if length is None or length > MOST_FILE:

@@ -25,6 +25,7 @@ def main(folder: Path) -> None:
     order = json.loads((folder / "order.json").read_text(encoding="utf-8"))
 
     def report(done: int, total: int) -> None:
+        """Note the progress."""
         replace(folder / "progress.json", [done, total])
 
     if order["kind"] != "fit":
