@@ -113,6 +113,7 @@ impl Rates {
         }
     }
 
+    /// The middle of cell i.
     fn middle(&self, i: usize) -> f64 {
         f64::midpoint(self.edges[i], self.edges[i + 1])
     }

@@ -295,6 +295,7 @@ impl<W: Write> Write for ChecksumWriter<W> {
         }
     }
 
+    /// Flushes the file.
     fn flush(&mut self) -> io::Result<()> {
         self.output.flush()
     }

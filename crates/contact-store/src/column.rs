@@ -51,11 +51,13 @@ impl Column {
         }
     }
 
+    /// Appends a value.
     pub(super) fn push(&mut self, value: f64) {
         self.tail.push(value);
         self.length += 1;
     }
 
+    /// Appends values.
     pub(super) fn extend(mut self, values: impl Iterator<Item = f64>) -> Self {
         values.for_each(|value| self.push(value));
         self
@@ -80,6 +82,7 @@ impl Column {
         &self.tail
     }
 
+    /// The description of the column.
     pub(super) fn variable(&self) -> &Variable {
         &self.variable
     }

@@ -23,6 +23,7 @@ pub(super) fn hidden_sibling(path: &Path, why: &str) -> PathBuf {
     path.with_file_name(name)
 }
 
+/// The hidden folder beside a place in which its store is begun.
 fn unfinished(path: &Path) -> PathBuf {
     hidden_sibling(path, "unfinished")
 }
@@ -36,6 +37,7 @@ pub(super) struct Folder {
 }
 
 impl Folder {
+    /// The folder at `root`, which is its final place.
     pub(super) fn new(root: &Path) -> Arc<Self> {
         Self::with_final_place(root, root.to_owned())
     }
@@ -48,6 +50,7 @@ impl Folder {
         })
     }
 
+    /// The path of the folder.
     pub(super) fn root(&self) -> &Path {
         &self.root
     }
@@ -124,11 +127,13 @@ fn rename_or_remove(unfinished: &Path, path: &Path, written: io::Result<()>) -> 
     renamed
 }
 
+/// An input or output error as one of the crate zarrs.
 fn storage_error(error: io::Error) -> StorageError {
     StorageError::IOError(Arc::new(error))
 }
 
 impl ReadableStorageTraits for Folder {
+    /// The content of a file, by its key.
     fn get(&self, key: &StoreKey) -> Result<MaybeBytes, StorageError> {
         let bytes = self.read(key.as_str()).map_err(storage_error)?;
         Ok(bytes.map(Bytes::from))
@@ -158,16 +163,19 @@ impl ReadableStorageTraits for Folder {
         }
     }
 
+    /// No: files are read as a whole.
     fn supports_get_partial(&self) -> bool {
         false
     }
 }
 
 impl WritableStorageTraits for Folder {
+    /// Writes a file, by its key.
     fn set(&self, key: &StoreKey, value: Bytes) -> Result<(), StorageError> {
         self.write(key.as_str(), &value).map_err(storage_error)
     }
 
+    /// Writes ranges of a file by rewriting it.
     fn set_partial_many(
         &self,
         key: &StoreKey,
@@ -184,10 +192,12 @@ impl WritableStorageTraits for Folder {
         }
     }
 
+    /// Removes a folder.
     fn erase_prefix(&self, prefix: &StorePrefix) -> Result<(), StorageError> {
         fs::remove_dir_all(self.root.join(prefix.as_str())).map_err(storage_error)
     }
 
+    /// No: files are written as a whole.
     fn supports_set_partial(&self) -> bool {
         false
     }

@@ -111,6 +111,7 @@ impl Drop for ImageData {
     }
 }
 
+/// Bytes of the numbers of a field, in single precision.
 fn block_length((nx, ny, nz): (usize, usize, usize)) -> u64 {
     (nx * ny * nz * 4) as u64
 }
@@ -145,7 +146,7 @@ fn spacing(depths: &[Depth]) -> Result<f64, Error> {
     Ok(step)
 }
 
-/// The XML before the numbers.
+/// The head of the file in XML: extent, origin, spacing, and the fields with their places in the file.
 fn header(
     grid: &Grid,
     (first, spacing): (f64, f64),

@@ -49,6 +49,7 @@ impl Columns {
         }
     }
 
+    /// Takes the attributes of a run that begins, and empties the columns.
     fn begin(&mut self, march: &March) {
         self.attributes = group_attributes(march.scene(), march.plan());
         self.scalars = SCALARS.iter().map(|_| Vec::new()).collect();

@@ -176,10 +176,12 @@ fn is_array_entry(name: &OsStr) -> bool {
     is_chunk || is_unfinished_name(name) || ARRAY.contains(&name) || is_checkpoint_entry(name)
 }
 
+/// Whether a name belongs to a checkpoint.
 fn is_checkpoint_entry(name: &str) -> bool {
     checkpoint::FILES.contains(&name) || name == wear_checkpoint::FILE
 }
 
+/// Whether a name belongs to a store that was never finished.
 fn is_unfinished_name(name: &str) -> bool {
     name.starts_with('.') && name.ends_with(".unfinished")
 }

@@ -109,6 +109,7 @@ impl Store {
         self.consolidated.document(".zattrs")
     }
 
+    /// The folder of the store.
     pub(super) fn folder(&self) -> &Arc<Folder> {
         &self.folder
     }
@@ -225,6 +226,7 @@ impl Store {
         Ok(bar("stress").or(fields))
     }
 
+    /// An array of the store by its name.
     fn array(&self, name: &str) -> Result<Stored<'_>, Error> {
         whole::array(&self.folder, &self.consolidated, name)
     }

@@ -47,6 +47,7 @@ impl<'a> Stored<'a> {
         })
     }
 
+    /// The shape of the array.
     pub(super) fn shape(&self) -> &[u64] {
         self.array.shape()
     }

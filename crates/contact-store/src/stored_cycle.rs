@@ -100,10 +100,12 @@ impl<'a> StoredCycle<'a> {
 }
 
 impl CycleSource for StoredCycle<'_> {
+    /// Number of moments whose fields are saved.
     fn count(&self) -> usize {
         self.kept.len()
     }
 
+    /// The moments with these numbers among the saved ones of the cycle.
     fn moments(&self, which: &[usize]) -> Result<Moments, Error> {
         let places: Vec<_> = which.iter().map(|n| self.kept[*n]).collect();
         self.moments_at(&places)

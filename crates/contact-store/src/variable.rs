@@ -103,11 +103,13 @@ impl Variable {
         Self::new(name, kind, words, &dims, vec![0, nx, ny], vec![1, nx, ny])
     }
 
+    /// Adds an attribute.
     pub(super) fn with_attribute(mut self, key: &str, value: Value) -> Self {
         self.attributes.insert(key.to_owned(), value);
         self
     }
 
+    /// The name of the variable.
     pub(super) fn name(&self) -> &'static str {
         self.name
     }
@@ -117,14 +119,17 @@ impl Variable {
         self.shape[0] = length as u64;
     }
 
+    /// The kind of its numbers.
     pub(super) fn kind(&self) -> Kind {
         self.kind
     }
 
+    /// The shape of its array.
     pub(super) fn shape(&self) -> Vec<usize> {
         self.shape.iter().map(|n| *n as usize).collect()
     }
 
+    /// The checksums of its chunks, in order.
     pub(super) fn checksums(&self) -> &[u32] {
         &self.checksums
     }
@@ -134,6 +139,7 @@ impl Variable {
         self.checksums = checksums.to_vec();
     }
 
+    /// Its attributes as JSON.
     pub(super) fn attributes(&self) -> Value {
         Value::Object(self.attributes.clone())
     }
@@ -153,6 +159,7 @@ impl Variable {
         })
     }
 
+    /// Opens its array for writing.
     fn array(&self, folder: &Arc<Folder>) -> Result<Array<Folder>, Error> {
         open_array(folder, self.name, self.zarray())
     }

@@ -67,6 +67,7 @@ impl Observer for CycleRecorder {
 }
 
 impl CycleSource for CycleRecorder {
+    /// Number of recorded moments.
     fn count(&self) -> usize {
         self.moments.tractions.len()
     }

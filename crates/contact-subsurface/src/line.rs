@@ -113,7 +113,7 @@ impl Line {
         }
     }
 
-    /// The origin of s.
+    /// x, y of the place where the distance s along the line is 0 \[m\].
     fn origin(self) -> (f64, f64) {
         match self {
             Self::AlongX(y) => (0.0, y),

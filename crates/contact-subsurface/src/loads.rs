@@ -137,7 +137,7 @@ pub(super) struct Plane {
 }
 
 impl Plane {
-    /// Lines along x, or along y if `exchanged`.
+    /// The grid as seen along its lines, which go along x, or along y if `exchanged`.
     pub(super) fn new(grid: &Grid, exchanged: bool) -> Self {
         let Grid { nx, ny, dx, .. } = *grid;
         let dy = if grid.plane_strain {

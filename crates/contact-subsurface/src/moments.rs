@@ -67,7 +67,7 @@ pub trait CycleSource: Sync {
 }
 
 impl Moments {
-    /// Copies states on a grid.
+    /// Copies tractions, stick cells, bulk stress and plastic strain of states on a grid.
     pub fn from_states(states: &States<'_>, grid: &Grid) -> Self {
         let shape = (grid.nx, grid.ny);
         let field = |values: Option<&[f64]>| {

@@ -38,7 +38,7 @@ pub(super) struct PlaneTransform {
 }
 
 impl PlaneTransform {
-    /// Transforms the tractions of each state.
+    /// Transforms the tractions of each state on the whole grid, for sources that are cells or points.
     pub(super) fn new(
         plane: &Plane,
         side: Side,

@@ -39,7 +39,7 @@ struct Rows {
 }
 
 impl Section {
-    /// Prepares lines below `line` in the body `side` under each of the `states`.
+    /// Prepares the stress on the section below `line`, in the body `side`, under each of the `states`.
     pub fn new<'a>(
         body: &Body,
         side: Side,

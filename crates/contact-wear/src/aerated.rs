@@ -34,6 +34,7 @@ impl Law for Aerated {
         Ok(())
     }
 
+    /// Fails if a number of the law, or the coefficient without oxygen, is out of its range.
     fn check(&self, key: &str) -> Result<(), Error> {
         self.law.check(key)?;
         let [_, starved] = self.coefficients;
@@ -44,6 +45,7 @@ impl Law for Aerated {
         Err(Error::invalid(format!("{key}.starved"), starved, allowed))
     }
 
+    /// Warnings on the law, and one if it wears more without oxygen than in air.
     fn doubts(&self, key: &str) -> Vec<String> {
         let mut doubts = self.law.doubts(key);
         let [aerated, starved] = self.coefficients;
@@ -56,18 +58,22 @@ impl Law for Aerated {
         doubts
     }
 
+    /// Whether the law needs a frequency.
     fn needs_frequency(&self) -> bool {
         self.law.needs_frequency()
     }
 
+    /// Whether cycles below a threshold do not wear.
     fn has_threshold(&self) -> bool {
         self.law.has_threshold()
     }
 
+    /// Whether both laws depend on the loading of the cycle alone, and not on depth, energy and cycles so far.
     fn is_steady(&self) -> bool {
         self.law.is_steady() && self.starved_law.is_steady()
     }
 
+    /// Values of the variable at which the law bends.
     fn bends(&self, variable: FactorVariable) -> Vec<f64> {
         self.law.bends(variable)
     }
@@ -80,10 +86,12 @@ impl Law for Aerated {
         if sum > 0.0 { starved / sum } else { 0.0 }
     }
 
+    /// Always: the aerated share weights the two coefficients.
     fn depends_on_air(&self) -> bool {
         true
     }
 
+    /// The law as a table of a scene file, with the coefficient without oxygen.
     fn to_toml(&self) -> Option<String> {
         let law = self.law.to_toml()?;
         let keys = law.strip_suffix(" }")?;

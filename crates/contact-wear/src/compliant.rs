@@ -28,6 +28,7 @@ impl Compliant<'_> {
 }
 
 impl SurfaceOperator for Compliant<'_> {
+    /// Cells along x and kept rows.
     fn shape(&self) -> (usize, usize) {
         self.op.shape()
     }
@@ -45,14 +46,17 @@ impl SurfaceOperator for Compliant<'_> {
         self.add(tractions, displacements.u_z);
     }
 
+    /// The work of the operator.
     fn work(&self) -> Convolutions {
         self.op.work()
     }
 
+    /// Whether the operator couples pressure and shear.
     fn is_coupled(&self) -> bool {
         self.op.is_coupled()
     }
 
+    /// The self coefficients of the operator, without the compliances.
     fn self_coefficients(&self) -> (f64, f64) {
         self.op.self_coefficients()
     }
@@ -120,6 +124,7 @@ impl ApproximateInverse for CompliantInverse {
             .for_each(|(z, scale)| *z *= scale);
     }
 
+    /// Applies the inverse to the shear, to which the compliances do not belong.
     fn tangential(&mut self, r: [&[f64]; 2], z: [&mut [f64]; 2]) {
         self.inverse.tangential(r, z);
     }

@@ -51,7 +51,7 @@ fn bottoms(scene: &Scene) -> [Vec<f64>; 2] {
     })
 }
 
-/// Checks that an event is in the list.
+/// Whether the list has an event of this kind, body (0 or 1) and coating.
 fn contains(events: &[Event], kind: EventKind, b: usize, coating: usize) -> bool {
     events
         .iter()

@@ -107,6 +107,7 @@ impl Law for Archard {
         Ok(())
     }
 
+    /// Fails if k or the threshold is negative or not finite.
     fn check(&self, key: &str) -> Result<(), Error> {
         check_not_negative(&format!("{key}.k"), self.k, "m^2/N")?;
         check_not_negative(
@@ -116,10 +117,12 @@ impl Law for Archard {
         )
     }
 
+    /// Always: the depth depends on the cycle alone.
     fn is_steady(&self) -> bool {
         true
     }
 
+    /// Whether small slips do not wear.
     fn has_threshold(&self) -> bool {
         self.threshold > 0.0
     }
@@ -130,6 +133,7 @@ impl Law for Archard {
         k.into_iter().collect()
     }
 
+    /// The law as a table of a scene file.
     fn to_toml(&self) -> Option<String> {
         Some(format!(
             "{{ k = {:?}, threshold = {:?} }}",
@@ -159,6 +163,7 @@ impl Law for DissipatedEnergy {
         Ok(())
     }
 
+    /// Fails if alpha or the threshold is negative or not finite.
     fn check(&self, key: &str) -> Result<(), Error> {
         check_not_negative(&format!("{key}.alpha"), self.alpha, "m^3/J")?;
         check_not_negative(
@@ -168,10 +173,12 @@ impl Law for DissipatedEnergy {
         )
     }
 
+    /// Always: the depth depends on the cycle alone.
     fn is_steady(&self) -> bool {
         true
     }
 
+    /// Whether small energies do not wear.
     fn has_threshold(&self) -> bool {
         self.threshold > 0.0
     }
@@ -183,6 +190,7 @@ impl Law for DissipatedEnergy {
         alpha.into_iter().collect()
     }
 
+    /// The law as a table of a scene file.
     fn to_toml(&self) -> Option<String> {
         Some(format!(
             "{{ alpha = {:?}, threshold = {:?} }}",

@@ -181,7 +181,7 @@ fn extrapolate(halves: &mut [f64], whole: &[f64]) {
     }
 }
 
-/// Adds cell by cell.
+/// Adds a field to another, cell by cell.
 fn add_to(sum: &mut [f64], more: &[f64]) {
     sum.iter_mut()
         .zip(more)

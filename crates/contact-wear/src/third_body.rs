@@ -72,7 +72,7 @@ pub(crate) struct ThirdFields {
 }
 
 impl ThirdFields {
-    /// Oxygen and debris as they are.
+    /// The fields with the present oxygen and bed, before a jump.
     pub(crate) fn present(aerated: &[f64], bed: &[f64]) -> Self {
         Self {
             aerated: aerated.to_vec(),

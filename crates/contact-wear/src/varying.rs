@@ -24,7 +24,7 @@ pub struct Factor {
 }
 
 impl Factor {
-    /// Fails if the table has no meaning.
+    /// Fails at a table of the factor that is empty, does not rise, or has a negative factor.
     pub(crate) fn check(&self, key: &str) -> Result<(), Error> {
         let key = format!("{key}.factor.table");
         if self.table.is_empty() {
@@ -102,37 +102,46 @@ impl Law for Varying {
         Ok(())
     }
 
+    /// Fails if the law or its factor has no meaning.
     fn check(&self, key: &str) -> Result<(), Error> {
         self.law.check(key)?;
         self.factor.check(key)
     }
 
+    /// The law as a table of a scene file, with its factor.
     fn to_toml(&self) -> Option<String> {
         let law = self.law.to_toml()?;
         let keys = law.strip_suffix(" }")?;
         Some(format!("{keys}, factor = {} }}", self.factor.to_toml()))
     }
 
+    /// Warnings on the law.
     fn doubts(&self, key: &str) -> Vec<String> {
         self.law.doubts(key)
     }
 
+    /// Whether the law, or its factor of power density, needs a frequency.
     fn needs_frequency(&self) -> bool {
         self.factor.variable == FactorVariable::PowerDensity || self.law.needs_frequency()
     }
 
+    /// Whether cycles below a threshold do not wear.
     fn has_threshold(&self) -> bool {
         self.law.has_threshold()
     }
 
+    /// Part of the depth that the law wears without oxygen; the factor does not change it.
     fn starved_part(&self, aerated: f64) -> f64 {
         self.law.starved_part(aerated)
     }
 
+    /// Whether the law depends on the aerated share.
     fn depends_on_air(&self) -> bool {
         self.law.depends_on_air()
     }
 
+    /// Whether law and factor depend on the loading of the cycle alone, and not on depth, energy and cycles so
+    /// far.
     fn is_steady(&self) -> bool {
         let of_loading = matches!(
             self.factor.variable,

@@ -117,7 +117,7 @@ impl<'a> Factor<'a> {
         Self { matrix, inverse }
     }
 
-    /// Solves L L^T z = r.
+    /// Applies the preconditioner: solves L L^T z = r.
     fn solve(&self, r: &[f64], z: &mut [f64]) {
         let Matrix { west, south, .. } = self.matrix;
         for c in 0..r.len() {
@@ -140,6 +140,7 @@ impl<'a> Factor<'a> {
     }
 }
 
+/// Dot product.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

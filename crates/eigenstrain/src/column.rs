@@ -46,19 +46,23 @@ impl Shapes {
 
 type Square = [[f64; 2]; 2];
 
+/// Product of two 2 x 2 matrices.
 fn product(a: Square, b: Square) -> Square {
     let entry = |i: usize, j: usize| a[i][0] * b[0][j] + a[i][1] * b[1][j];
     [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]
 }
 
+/// Transpose of a 2 x 2 matrix.
 fn transposed(a: Square) -> Square {
     [[a[0][0], a[1][0]], [a[0][1], a[1][1]]]
 }
 
+/// a + factor b of 2 x 2 matrices.
 fn sum(a: Square, b: Square, factor: f64) -> Square {
     [0, 1].map(|i| [0, 1].map(|j| a[i][j] + factor * b[i][j]))
 }
 
+/// Inverse of a 2 x 2 matrix.
 fn inverse(a: Square) -> Square {
     let by = 1.0 / (a[0][0] * a[1][1] - a[0][1] * a[1][0]);
     [[a[1][1] * by, -a[0][1] * by], [-a[1][0] * by, a[0][0] * by]]

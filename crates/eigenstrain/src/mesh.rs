@@ -141,7 +141,7 @@ impl Heights {
         of_growth + (z - full) / self.height
     }
 
-    /// The distance down to which there are so many.
+    /// The depth above which there are so many elements \[m\].
     fn depth(&self, count: f64) -> f64 {
         let (full, of_growth) = self.full();
         if count <= of_growth {

@@ -124,6 +124,7 @@ impl Transform {
         &self.waves
     }
 
+    /// Number of slow waves, which are transformed by products.
     fn small(&self) -> usize {
         self.even.ncols()
     }

@@ -33,6 +33,7 @@ pub(crate) struct Wave {
     pub(crate) weight: f64,
 }
 
+/// Weight of the wave number k in the integral over slow waves; it falls from 1 to 0 around half of `reach`.
 fn bump(k: f64, reach: f64) -> f64 {
     0.5 * libm::erfc(BUMP * (k / reach - 0.5))
 }

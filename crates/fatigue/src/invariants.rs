@@ -67,7 +67,7 @@ impl OfInvariants {
     }
 }
 
-/// sqrt(J2,a) + alpha p_h,max.
+/// Crossland's criterion, sqrt(J2,a) + alpha p_h,max, from the smallest sphere around the stress deviator.
 pub(crate) fn crossland(path: &Path, sphere: &Ball<5>, alpha: f64) -> OfInvariants {
     let pressures = path.instants().map(|s| hydrostatic(&s));
     let pressure = pressures.fold(f64::NEG_INFINITY, f64::max);
@@ -78,7 +78,7 @@ pub(crate) fn crossland(path: &Path, sphere: &Ball<5>, alpha: f64) -> OfInvarian
     }
 }
 
-/// The largest tau(t) + alpha p_h(t).
+/// Dang Van's criterion, the largest tau(t) + alpha p_h(t) over the instants.
 pub(crate) fn dang_van(path: &Path, sphere: &Ball<5>, alpha: f64) -> OfInvariants {
     let instants = tau_and_pressure(path, sphere).map(|(shear, pressure)| OfInvariants {
         value: shear + alpha * pressure,

@@ -68,6 +68,7 @@ macro_rules! real {
             fn wide(self) -> f64 {
                 f64::from(self)
             }
+            /// self times `by` plus `add`.
             #[inline(always)]
             fn mul_add(self, by: Self, add: Self) -> Self {
                 self.mul_add(by, add)

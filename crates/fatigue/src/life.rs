@@ -92,7 +92,8 @@ impl CoffinManson {
         check_negative("ductility exponent", self.exponent)
     }
 
-    /// Weighted elastic and plastic strain.
+    /// Strain amplitude at a life of N cycles: the elastic and the plastic part of the curve, each with a
+    /// weight.
     fn sum(&self, [elastic, plastic]: [f64; 2], cycles: f64) -> f64 {
         let elastic_strain = self.elastic.amplitude(cycles) / self.E;
         elastic * elastic_strain + plastic * self.ductility * (2.0 * cycles).powf(self.exponent)

@@ -121,7 +121,7 @@ fn square_radius(pp: f64, qq: f64, pq: f64) -> f64 {
     }
 }
 
-/// S.n.
+/// The traction S.n on a plane.
 fn traction(s: &StressTensor, n: [f64; 3]) -> [f64; 3] {
     [
         s[0] * n[0] + s[3] * n[1] + s[4] * n[2],

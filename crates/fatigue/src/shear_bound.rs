@@ -98,7 +98,7 @@ impl BestPlaneBound {
     }
 }
 
-/// The product D D.
+/// The matrix product D D of a symmetric tensor.
 fn squared(&[xx, yy, zz, xy, xz, yz]: &StressTensor) -> StressTensor {
     [
         xx * xx + xy * xy + xz * xz,

@@ -73,7 +73,7 @@ fn weights(rule: &Rule, length: f64) -> Result<[Array1<f64>; 2], Error> {
 }
 
 impl Crack {
-    /// The dislocations along a path.
+    /// Computes the dislocation system of a crack along a path.
     pub fn new(path: Path) -> Result<Self, Error> {
         path.check()?;
         let step = step(&path);
@@ -201,7 +201,7 @@ impl Crack {
         self.system.rule.dislocations.last().map_or(0.0, |d| d.s)
     }
 
-    /// The faces' compliances, made once for all similar cracks.
+    /// The compliance matrices of the faces, computed once for all cracks of this shape.
     pub(crate) fn contact(&self) -> Result<&Contact, Error> {
         let made = self
             .system

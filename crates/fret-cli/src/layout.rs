@@ -121,6 +121,7 @@ impl Page {
         }
     }
 
+    /// The text in the style of heads.
     fn bold(&self, text: &str) -> String {
         let style = self.heads;
         format!("{style}{text}{style:#}")

@@ -87,6 +87,7 @@ impl Loads {
         }
     }
 
+    /// The cells that stick.
     pub(crate) fn stick(&self) -> [&[bool]; 1] {
         [self.stick.as_slice().unwrap_or_default()]
     }

@@ -76,12 +76,14 @@ fn named_parts(path: &OsStr) -> Option<OsString> {
     joined.filter(|_| !parts.is_empty())
 }
 
+/// Replaces this process by Python; returns only if that fails.
 #[cfg(unix)]
 fn exit_code_of(python: &mut Command) -> io::Result<u8> {
     use std::os::unix::process::CommandExt;
     Err(python.exec())
 }
 
+/// Runs Python and returns its exit code.
 #[cfg(not(unix))]
 fn exit_code_of(python: &mut Command) -> io::Result<u8> {
     let code = python.status()?.code();

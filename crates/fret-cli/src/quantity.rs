@@ -12,6 +12,7 @@ pub(crate) fn stress(text: &str) -> Result<f64, String> {
     number("residual", text)
 }
 
+/// Reads a number, alone or with a unit, by the key of its quantity.
 fn number(key: &str, text: &str) -> Result<f64, String> {
     let plain = text.trim().parse();
     plain.or_else(|_| quantity(key, text).map_err(|allowed| format!("must be {allowed}")))

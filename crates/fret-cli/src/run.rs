@@ -55,6 +55,7 @@ pub(crate) struct RunOptions {
     pub(crate) quiet: bool,
 }
 
+/// Reads a number of seconds.
 fn seconds(text: &str) -> Result<Duration, String> {
     let seconds: f64 = text.parse().map_err(|_| "must be a number of seconds")?;
     Duration::try_from_secs_f64(seconds).map_err(|_| "must be a number of seconds >= 0".into())
@@ -207,10 +208,12 @@ impl Observer for Watcher {
         Ok(())
     }
 
+    /// Passes the end of the run to the store.
     fn on_end(&mut self, march: &March, failure: Option<&Error>) -> Result<(), Error> {
         self.writer.on_end(march, failure)
     }
 
+    /// The flag that Ctrl-C raises.
     fn stop(&self) -> Option<Arc<AtomicBool>> {
         Some(self.stop.clone())
     }

@@ -28,6 +28,7 @@ pub(crate) struct SceneOptions {
 }
 
 impl SceneOptions {
+    /// Reads the scene with the changes of the options.
     pub(crate) fn read(&self) -> Result<Scene, Error> {
         let (text, name) = self.text()?;
         Scene::from_toml_str_reaching(&text, &name, &self.settings, self.reach())

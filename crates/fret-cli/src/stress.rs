@@ -450,6 +450,7 @@ fn warn_of_thin_layer(scene: &Scene, body: &Body) {
     }
 }
 
+/// Whether the file to write is image data (.vti).
 fn is_image(options: &Options) -> bool {
     let extension = options.out.as_ref().and_then(|out| out.extension());
     extension.is_some_and(|e| e.eq_ignore_ascii_case("vti"))

@@ -42,6 +42,7 @@ fn named_width() -> Option<usize> {
     text.parse().ok().filter(|width| *width > 0)
 }
 
+/// The width of a terminal in characters; none if it is unknown or zero.
 fn window(size: Option<(Width, terminal_size::Height)>) -> Option<usize> {
     size.map(|(Width(width), _)| usize::from(width))
         .filter(|width| *width > 0)

@@ -125,6 +125,7 @@ pub const ISOTROPIC: [Isotropic; 3] = [
     },
 ];
 
+/// The limit of a stress that grows without bound if `grows`, else 0.
 fn unbounded(grows: bool) -> f64 {
     if grows { f64::INFINITY } else { 0.0 }
 }
@@ -203,6 +204,7 @@ pub const NUMBERS: [Number; 9] = [
     },
 ];
 
+/// Whether a number is finite and not negative.
 fn not_negative(value: f64) -> bool {
     value >= 0.0 && value.is_finite()
 }

@@ -291,6 +291,7 @@ fn is_taken(of: Kind, name: &str) -> bool {
         .any(|row| row.1.name() == name && row.1.takes(of))
 }
 
+/// The names of the units of the chosen kinds, with commas between.
 fn joined(which: impl Fn(Kind) -> bool) -> String {
     let names = UNITS.iter().filter(|(_, of, _)| which(*of));
     names.map(|(name, ..)| *name).collect::<Vec<_>>().join(", ")

@@ -44,10 +44,12 @@ impl<K: Observer> Observer for Watch<K> {
         })
     }
 
+    /// Passes the end of the run to the keeper.
     fn on_end(&mut self, march: &March, failure: Option<&Error>) -> Result<(), Error> {
         self.keeper.on_end(march, failure)
     }
 
+    /// The flag that ends the run.
     fn stop(&self) -> Option<Arc<AtomicBool>> {
         Some(self.stop.clone())
     }

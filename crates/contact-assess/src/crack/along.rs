@@ -178,6 +178,7 @@ impl Along<'_> {
         Ok(())
     }
 
+    /// The body that is cracked.
     fn body(&self) -> &Body {
         &self.contact.body
     }

@@ -73,6 +73,7 @@ impl PythonCycle {
 }
 
 impl CycleSource for PythonCycle {
+    /// Number of moments of the cycle.
     fn count(&self) -> usize {
         self.count
     }
@@ -85,10 +86,12 @@ impl CycleSource for PythonCycle {
             .ok_or_else(|| Error::invalid("fields of a cycle", "others", allowed))
     }
 
+    /// The moment before the cycle, if Python has it.
     fn start(&self) -> Result<Option<Moments>, Error> {
         self.take_moments(None)
     }
 
+    /// The error of the shear by the increments, if it is known.
     fn path_error(&self) -> Option<f64> {
         self.path_error
     }

@@ -70,10 +70,12 @@ impl core::FrictionLaw for Own {
         Python::attach(call).map_err(|raised| Arc::new(raised) as LawError)
     }
 
+    /// The address of the function.
     fn identity(&self) -> usize {
         self.0.as_ptr() as usize
     }
 
+    /// The law for a downcast.
     fn as_any(&self) -> Option<&dyn std::any::Any> {
         Some(self)
     }
