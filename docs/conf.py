@@ -61,6 +61,8 @@ html_theme_options = {
 }
 html_title = f"pyfret {release}"
 html_copy_source = False
+html_static_path = ["_static"]
+html_js_files = ["accessible.js"]
 
 warnings.filterwarnings("ignore", category=pyfret.errors.SceneWarning)
 

@@ -377,7 +377,7 @@ def page() -> str:
         for name, code in figures.items():
             lines += ["", f"### {name}", "", summary(name), ""]
             lines += ["```py", code, "```", "", f"![{name}](../figures/plots/{name}.png)"]
-    lines += ["", "## And", "", "| | |", "|---|---|"]
+    lines += ["", "## And", "", "| function | what it does |", "|---|---|"]
     lines += [f"| `{name}` | {says} |" for name, says in OTHERS.items()]
     return "\n".join(lines) + "\n"
 
