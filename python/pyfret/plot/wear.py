@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from pyfret._util.theme import colour_map
+from pyfret._util.theme import CATEGORIES, SAFE, colour_map
 from pyfret.plot.sizes import Width
 from pyfret.plot.style import add_colour_bar, axes, inside_legend, styled
 
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 #: What is drawn of a worn pair.
 Which = Literal["body1", "body2", "both"]
+#: Debris in a scar, and where oxygen arrives.
+DEBRIS, AIR = CATEGORIES[1], SAFE
 #: Most profiles in a figure.
 MOST_LINES = 50
 
@@ -92,14 +94,13 @@ def third_body(
     step = position[1] - position[0]
     for x, share in zip(position, aerated, strict=True):
         if share > 0.0:
-            ax.axvspan(x - 0.5 * step, x + 0.5 * step, color="#9ecae1", alpha=0.5 * share, lw=0)
+            ax.axvspan(x - 0.5 * step, x + 0.5 * step, color=AIR, alpha=0.5 * share, lw=0)
     ax.plot(position, depth, label="worn off both bodies")
     if bed.any():
-        colour = "#c49a6c"
-        ax.fill_between(position, open_depth, depth, color=colour, alpha=0.6, label="debris")
-        ax.plot(position, open_depth, color=colour, linestyle="--", label="growth of the gap")
+        ax.fill_between(position, open_depth, depth, color=DEBRIS, alpha=0.4, label="debris")
+        ax.plot(position, open_depth, color=DEBRIS, linestyle="--", label="growth of the gap")
     if aerated.any():
-        ax.fill_between([], [], color="#9ecae1", alpha=0.5, label="oxygen arrives")
+        ax.fill_between([], [], color=AIR, alpha=0.5, label="oxygen arrives")
     ax.invert_yaxis()
     worn = np.flatnonzero(depth > 1e-3 * max(float(depth.max()), 1e-30))
     if len(worn):
