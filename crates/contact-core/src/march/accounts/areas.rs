@@ -14,7 +14,9 @@
 //! dissimilar bodies; M. Comninou, J. Appl. Mech. 43 (1976) 631). Of the laws in question the one
 //! with the straightest level is taken. Cells at a rim whose own level is another (a rough contact,
 //! a layer as thin as the cells), and those beside them, count whole. On uneven surfaces each face between
-//! two such cells takes (pi - 1 + ln 2)/24 of a cell off the area of the zone ([`EDGE`]).
+//! two such cells takes (pi - 1 + ln 2)/24 of a cell off the area of the zone ([`EDGE`]). Where an uneven
+//! surface has a rough rim, all cells of the stick zone count whole in its ratio to the contact: against
+//! finer points of six surfaces it is off by a third of what levels are.
 //!
 //! Where a stick zone grows, cells come to stick with the shear with which they slipped, and their
 //! shortfall depends on the position of the border in every increment. There the slip s of the
@@ -48,6 +50,8 @@ const RING: usize = 3;
 const FEWEST_CELLS: usize = 4;
 /// A sticking cell beside cells at the limit is at the limit too if |q| > (1 - REACHES) mu p.
 const REACHES: f64 = 5e-3;
+/// Part of the cells at a rim without a level from which on the rim is rough.
+const ROUGH_RIM: f64 = 0.1;
 /// Largest |e| of the law of a rim, reached at mu beta = tan(0.4 pi) = 3.1.
 const STEEPEST: f64 = 0.4;
 /// Slip below TELLS times the largest of the increment counts as none. Slip grows like d^(3/2) from
@@ -105,7 +109,12 @@ pub(super) fn areas(
             } else {
                 Vec::new()
             };
-            let without_slip = cells.area(&cells.stick, &border);
+            let without_slip = if cells.have_rough_borders(&whole.count, &rim) {
+                let stick = count_spots(cells.lattice, &cells.stick);
+                contact * corrected_cells(&stick) / corrected_cells(&whole.count)
+            } else {
+                cells.area(&cells.stick, &border)
+            };
             let before = setup.state.without_slip / setup.problem.cell_area();
             let grows = setup.goes_on.is_some() && before > 0.0 && without_slip > before;
             let stick = if grows {
@@ -125,6 +134,11 @@ pub(super) fn areas(
         at_limit: cells.at_limit,
         ..whole
     }
+}
+
+/// Cells of a zone, less the part that each face of its border takes off its area ([`EDGE`]).
+fn corrected_cells(zone: &SpotCount) -> f64 {
+    zone.cells - EDGE * zone.faces
 }
 
 /// Whether bodies whose cells all slip slide as a whole: under given forces only at the limit of friction, else
@@ -227,6 +241,18 @@ impl<'a> Cells<'a> {
             at_limit,
             contact,
         }
+    }
+
+    /// Whether the borders of contact and stick zone are too rough to lie within cells by a level: the
+    /// contact of an uneven surface is several spots, or many cells at its `rim` have no level. The ratio of
+    /// two zones of whole cells is then the better one.
+    fn have_rough_borders(&self, contact: &SpotCount, rim: &[(usize, Edge)]) -> bool {
+        let scene = &self.setup.problem.scene;
+        if !scene.is_uneven() || self.lattice.is_single_row {
+            return false;
+        }
+        let without_level = rim.iter().filter(|(_, edge)| edge.level.is_none()).count();
+        contact.spots > 1 || without_level as f64 > ROUGH_RIM * rim.len() as f64
     }
 
     /// The area of a zone \[m^2\]: whole cells inside, and parts of the cells `edges` that its border crosses.
