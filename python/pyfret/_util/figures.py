@@ -49,8 +49,9 @@ def first_types(function: Callable[..., Any]) -> set[str]:
 def figures_of(kind: type) -> list[str]:
     """Return the names of the figures that draw an object of a class with the attribute ``figure``.
 
-    The first argument of a figure is of that class or of one above it. A class that fits a protocol
-    has the first type of the figure that shows the whole.
+    A figure draws a class if its first argument is annotated with that class or with one of its
+    bases. For a class that only fits a protocol, the annotation of the figure named by the
+    attribute counts too.
     """
     plot = load_figures()
     whole = next(iter(getattr(plot, kind.figure).__annotations__.values()))  # type: ignore[attr-defined]

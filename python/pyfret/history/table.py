@@ -413,7 +413,7 @@ class HistoryTable:
         position = {branch: int(np.searchsorted(increments, n)) for branch, n in ends.items()}
 
         def half_changes(pairs: list[tuple[int, int]]) -> NDArray[np.float64]:
-            """Return the half change D of pairs of increments."""
+            """Return half of each high increment minus its low one, shape (pair, increment)."""
             half = np.zeros((len(pairs), increments.size))
             for row, (high, low) in enumerate(pairs):
                 half[row, position[high]] += 0.5

@@ -15,18 +15,12 @@ from pyfret.plot.animation import animate
 from pyfret.plot.comparison import comparison
 from pyfret.plot.crack_section import crack_panels, crack_path
 from pyfret.plot.cracks import crack_arrest, intensity, intensity_history, kitagawa
+from pyfret.plot.critical_planes import critical_plane_rose, dang_van_diagram, haigh_diagram
 from pyfret.plot.design_chart import design_chart
 from pyfret.plot.fretting_map import arrest_map, fretting_map, running_map
 from pyfret.plot.heat import temperature, temperature_map
 from pyfret.plot.histories import fretting_loop, load_path, loop_evolution, stick_ratio
-from pyfret.plot.life import (
-    criterion_map,
-    critical_plane_rose,
-    dang_van_diagram,
-    haigh_diagram,
-    life_over_distance,
-    load_factor_map,
-)
+from pyfret.plot.life import criterion_map, life_over_distance, load_factor_map
 from pyfret.plot.loads import (
     damage_contributions,
     damage_map,

@@ -54,7 +54,11 @@ def code_checksum(of: Any) -> str:
 
 
 def value_parts(of: Any, home: str | None, within: tuple[int, ...]) -> Any:
-    """Convert a value to nested tuples of text; equal tuples mean equal values."""
+    """Convert a value to nested tuples of text; equal tuples mean equal values.
+
+    Functions of the module named ``home`` are converted with the globals that they use, others
+    by their code. ``within`` has the ids of the values that hold this one.
+    """
     if id(of) in within:
         return "again"
     if len(within) > DEEPEST:

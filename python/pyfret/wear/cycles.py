@@ -18,7 +18,7 @@ __all__ = ["Cycles", "RangeOfCycles", "changed", "reached", "spent"]
 
 
 def ended(cycles: float) -> str:
-    """Bounds for a run that ended before it reached a value."""
+    """Return the text "more than N cycles", for a run that ended before it reached a value."""
     return f"more than {_core.rough(cycles)} cycles (the run ended there)"
 
 
