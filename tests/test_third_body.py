@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -130,6 +131,15 @@ def test_friction_rises_as_a_film_is_worn_through() -> None:
     assert worn.cycles_to(mu=0.6).beyond == pytest.approx(3e5)
     assert worn.cycles_to(mu=0.15) == 0.0
     assert "mean coefficient of friction" in worn.summary()
+    cycles = worn.cycles_to(mu=0.16)
+    assert worn.cycles_to(part_of_coating=1.0) <= cycles < 3e5
+    assert worn.cycles_to(mu=0.6).beyond == pytest.approx(3e5)
+    assert worn.cycles_to(mu=0.15) == 0.0
+    assert "mean coefficient of friction" in worn.summary()
+    # A single layer has no border that a cell could cut.
+    bare = np.asarray(worn.depth2) > 2e-6
+    assert np.all(np.asarray(worn.mu_error)[~bare] < 1e-3)
+    assert np.all(np.asarray(worn.mu_error)[bare] > 1e-4)
     assert worn.scene.friction == fret.Friction(layers=[0.15, 0.7])
     # The force of the loop follows the friction of the last surfaces.
     force = float(worn.dissipated_per_cycle[-1]) / (4 * 50e-6)
@@ -137,6 +147,37 @@ def test_friction_rises_as_a_film_is_worn_through() -> None:
     # Energy of the cells is energy of the contact.
     energy = float(worn.energy2[-1].sum() * worn.scene.grid.dx)
     assert energy == pytest.approx(float(worn.dissipated[-1]), rel=1e-9)
+
+
+@pytest.mark.solves
+def test_a_run_with_friction_of_the_surface_goes_on_with_the_same_bytes(tmp_path: Path) -> None:
+    def substrate(pressed: Any, slip: Any, dissipated: Any, worn: Any, cycles: float) -> Any:
+        return 3e-15 * dissipated
+
+    def stops(pressed: Any, slip: Any, dissipated: Any, worn: Any, cycles: float) -> Any:
+        if cycles > 2e5:
+            raise RuntimeError("the power is off")
+        return 3e-15 * dissipated
+
+    scene = film(friction=fret.Friction(layers=[0.15, 0.7], bed=(0.4, 1e-6)))
+    options: dict[str, Any] = {"bed": fret.wear.DebrisBed(kappa=1e-3), "cycling": "sliding"}
+    store = tmp_path / "film.zarr"
+    with pytest.raises(fret.errors.ArgumentError, match="the power is off"):
+        wear_film(scene, body2=[FILM_LAWS[0], stops], out=store, **options)
+    resumed = fret.wear.resume(store, body2=substrate, progress=False)
+    whole = wear_film(
+        scene, body2=[FILM_LAWS[0], substrate], out=tmp_path / "whole.zarr", **options
+    )
+    assert float(whole.mu[-1]) > 0.16
+    for name, values in whole.dataset.variables.items():
+        assert values.values.tobytes() == resumed.dataset[name].values.tobytes(), name
+
+
+def test_a_body_that_yields_has_no_wear_with_a_bed() -> None:
+    yields = fret.Elastic(E=119e9, nu=0.29, plastic=fret.Plastic(s_y=8e8))
+    scene = cylinder(48).replace(body2=fret.Body(yields))
+    with pytest.raises(ValueError, match=r"body2\.plastic"):
+        fret.wear.solve(scene, progress=False, **settings())
 
 
 @pytest.mark.solves
@@ -220,8 +261,14 @@ def test_laws_of_wear_may_see_the_third_body() -> None:
 
 
 @pytest.mark.solves
-def test_scar_bed_and_aerated_zone_are_drawn() -> None:
+def test_scar_bed_and_aerated_zone_are_drawn_and_reported(tmp_path: Path) -> None:
     worn = fret.wear.solve(cylinder(48), progress=False, **settings(jumps=2))
+    page = tmp_path / "run.html"
+    fret.solve(cylinder(48), progress=False).report(page, wear=worn)
+    text = page.read_text(encoding="utf-8")
+    assert "scar, debris and oxygen" in text
+    assert re.search(r'"name": ?"debris"', text)
+    assert re.search(r'"name": ?"aerated share \[1\]"', text)
     ax = fret.plot.third_body(worn)
     labels = {text.get_text() for text in ax.get_legend().get_texts()}
     expected = {"worn off both bodies", "debris", "growth of the gap", "oxygen arrives"}

@@ -200,7 +200,7 @@ def stress(result: Run, crack: CrackSection | None = None) -> dict[str, Any] | N
 
 
 def wear(worn: WearResult) -> dict[str, Any]:
-    """Return depths over cycles, and the worn profiles of both bodies at the end."""
+    """Return depths over cycles, and worn profiles with the third body at the end."""
     d = worn.dataset
     cut, direction = worn.along(), worn.direction
     along = str(cut.worn2.dims[-1])
@@ -210,6 +210,7 @@ def wear(worn: WearResult) -> dict[str, Any]:
         "along": along,
         "x": short(1e6 * cut[along].values),
         "profile": [short(1e6 * cut[f"worn{n}"][-1].values) for n in (1, 2)],
+        "third": third_body(worn),
         "loops": [
             {
                 "name": f"after {in_words(float(d.block_cycles[block]))} cycles",
@@ -220,6 +221,16 @@ def wear(worn: WearResult) -> dict[str, Any]:
         ],
         "labels": [LOOPS[direction][3], f"{LOOPS[direction][2]} [{d.loop_T_x.attrs['units']}]"],
     }
+
+
+def third_body(worn: WearResult) -> list[dict[str, Any]]:
+    """Return lines of the debris bed [um] and of the aerated share that the run computes."""
+    cut = worn.along().isel(block=-1)
+    names = {"bed": "debris", "air": "aerated share [1]"}
+    fields = {"bed": 1e6 * cut.bed.values, "air": np.where(cut.p > 0.0, cut.aerated, 0.0)}
+    return [
+        {"name": name, "y": short(fields[key])} for key, name in names.items() if key in worn.table
+    ]
 
 
 def closed(corners: NDArray[np.float64]) -> NDArray[np.float64]:

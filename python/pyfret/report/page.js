@@ -170,7 +170,8 @@
     const downwards = layout(`${data.wear.along} [µm]`, "worn depth [µm]");
     downwards.yaxis.autorange = "reversed";
     Plotly.newPlot("depths", pair(data.wear.cycles, data.wear.depth), layout("cycles", "depth [µm]"), options);
-    Plotly.newPlot("profiles", pair(data.wear.x, data.wear.profile), downwards, options);
+    const third = data.wear.third.map((line) => ({ ...line, x: data.wear.x, line: { dash: "dot" } }));
+    Plotly.newPlot("profiles", [...pair(data.wear.x, data.wear.profile), ...third], downwards, options);
     const loops = data.wear.loops.map((of, n) => ({ ...of, mode: "lines+markers", marker: { size: 4 }, line: { color: n ? colours.second : colours.first } }));
     Plotly.newPlot("loops", loops, layout(...data.wear.labels), options);
   } else {

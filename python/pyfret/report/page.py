@@ -247,6 +247,9 @@ def stills(
     if wear is not None:
         history, loops = plot.wear_history(wear).figure, plot.wear_loops(wear).figure
         shown["still_wear"] = [("worn depth over cycles", history), ("friction loops", loops)]
+        if not {"air", "bed"}.isdisjoint(wear.table):
+            scar = plot.third_body(wear).figure
+            shown["still_wear"].append(("scar, debris and oxygen", scar))
     pages = {key: "".join(image(*pair) for pair in pairs) for key, pairs in shown.items()}
     for pairs in shown.values():
         for _, figure in pairs:
