@@ -136,6 +136,16 @@ def test_friction_rises_as_a_film_is_worn_through() -> None:
     assert worn.cycles_to(mu=0.6).beyond == pytest.approx(3e5)
     assert worn.cycles_to(mu=0.15) == 0.0
     assert "mean coefficient of friction" in worn.summary()
+    cycles = worn.cycles_to(mu=0.16)
+    assert worn.cycles_to(part_of_coating=1.0) <= cycles < 3e5
+    assert worn.cycles_to(mu=0.6).beyond == pytest.approx(3e5)
+    assert worn.cycles_to(mu=0.15) == 0.0
+    assert "mean coefficient of friction" in worn.summary()
+    cycles = worn.cycles_to(mu=0.16)
+    assert worn.cycles_to(part_of_coating=1.0) <= cycles < 3e5
+    assert worn.cycles_to(mu=0.6).beyond == pytest.approx(3e5)
+    assert worn.cycles_to(mu=0.15) == 0.0
+    assert "mean coefficient of friction" in worn.summary()
     # A single layer has no border that a cell could cut.
     bare = np.asarray(worn.depth2) > 2e-6
     assert np.all(np.asarray(worn.mu_error)[~bare] < 1e-3)
