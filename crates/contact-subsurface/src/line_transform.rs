@@ -12,7 +12,7 @@ use std::sync::atomic::AtomicBool;
 
 use contact_core::Error;
 use contact_core::convolution::{Tractions, fast_length};
-use contact_core::kernels::{DepthKernel, Quantity};
+use contact_core::kernels::{DepthKernel, Quantity, SharedCorners};
 use contact_core::stop::unless;
 use ndarray::Array2;
 use rayon::prelude::*;
@@ -134,18 +134,21 @@ impl LineTransform {
         let mut sums = [0, 1].map(|_| vec![Complex64::default(); states * R * frequencies]);
         let mut entries = vec![0.0; 3 * R * self.offsets];
         let mut buffers = Buffers::new(&*self.forward);
+        let mut corners = SharedCorners::new(0.0, self.offsets);
         for pair in &self.pairs {
             unless(stop)?;
             let (even, odd) = entries_with_loads::<Q, N, R>(pair);
             if even.is_empty() && odd.is_empty() {
                 continue;
             }
+            let put = |i: usize, response: [[f64; 3]; R]| {
+                for (entry, value) in response.as_flattened().iter().enumerate() {
+                    entries[entry * self.offsets + i] = *value;
+                }
+            };
+            let y = pair.distance;
             self.source
-                .row(kernel, self.offsets, pair.distance, d, |i, response| {
-                    for (entry, value) in response.as_flattened().iter().enumerate() {
-                        entries[entry * self.offsets + i] = *value;
-                    }
-                });
+                .row(kernel, self.offsets, y, d, &mut corners, put);
             let line = |(row, column): (usize, usize)| {
                 &entries[(3 * row + column) * self.offsets..][..self.offsets]
             };

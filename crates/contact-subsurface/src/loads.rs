@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use contact_core::convolution::Tractions;
-use contact_core::kernels::{DepthKernel, Quantity};
+use contact_core::kernels::{DepthKernel, Quantity, SharedCorners};
 use contact_core::scene::Grid;
 
 use super::Side;
@@ -41,20 +41,25 @@ impl Source {
         }
     }
 
-    /// The responses to a unit source at the offsets (i dx, y), i < n; `put` takes them with i.
+    /// The responses to a unit source at the offsets (i dx, y), i < `cells`; `put` takes them with i. `corners`
+    /// has the corners of the row before.
     pub(super) fn row<Q: Quantity<N, R>, const N: usize, const R: usize>(
         self,
         kernel: &DepthKernel<Q, N, R>,
-        n: usize,
+        cells: usize,
         y: f64,
         d: (f64, f64),
+        corners: &mut SharedCorners<R>,
         mut put: impl FnMut(usize, [[f64; 3]; R]),
     ) {
         match self {
-            Self::Cells => kernel.responses_to_row(0..n, y, d, put),
+            Self::Cells => {
+                let offsets = (0..cells).map(|i| (i, i as f64));
+                kernel.responses_to_cells(offsets, y, d, corners, put);
+            }
             Self::Points => {
                 let area = d.0 * d.1;
-                for i in 0..n {
+                for i in 0..cells {
                     let point = kernel.response_to_point(i as f64 * d.0, y);
                     put(i, point.map(|row| row.map(|v| area * v)));
                 }

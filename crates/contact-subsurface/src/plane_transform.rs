@@ -9,7 +9,7 @@ use std::sync::atomic::AtomicBool;
 
 use contact_core::Error;
 use contact_core::convolution::{Tractions, fast_length};
-use contact_core::kernels::{DepthKernel, Quantity};
+use contact_core::kernels::{DepthKernel, Quantity, SharedCorners};
 use contact_core::stop::unless;
 use ndarray::Array2;
 use rayon::prelude::*;
@@ -161,14 +161,16 @@ impl PlaneTransform {
         let mut entries = vec![0.0; 3 * R * nx];
         let mut buffers = Buffers::new(&*self.x_forward);
         let pairs = pair_entries::<R>(|row, column| Q::is_odd(row, column).0);
+        let mut corners = SharedCorners::new(0.0, nx);
         for j in 0..ny {
             unless(stop)?;
             let y = j as f64 * d.1;
-            self.source.row(kernel, nx, y, d, |i, response| {
+            let put = |i: usize, response: [[f64; 3]; R]| {
                 for (e, value) in response.as_flattened().iter().enumerate() {
                     entries[e * nx + i] = *value;
                 }
-            });
+            };
+            self.source.row(kernel, nx, y, d, &mut corners, put);
             for pair in &pairs {
                 let entry_values = |e: usize| entries[e * nx..][..nx].iter().copied();
                 buffers.transform(

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use contact_core::Error;
-use contact_core::kernels::{DepthKernel, Displacement, Quantity};
+use contact_core::kernels::{DepthKernel, Displacement, Quantity, SharedCorners};
 use contact_core::scene::{Body, Grid};
 use contact_core::stop::unless;
 use rayon::prelude::*;
@@ -21,10 +21,38 @@ const FARTHEST: f64 = 1e6;
 pub struct Points {
     loaded: Loaded,
     plane: Plane,
-    /// Loads of each state, on cells and as point loads, on the patch that holds the loads of all
-    /// states.
-    loads: Vec<[Loads; 2]>,
+    /// Loads of all states, on cells and as point loads, on the patch that holds them.
+    loads: [LoadedCells; 2],
     patches: [Patch; 2],
+}
+
+/// Loads of all states cell by cell, so that the sums over the states run through memory in order.
+struct LoadedCells {
+    /// Place among the loaded cells by cell of the patch, row by row; `None` without a load.
+    cells: Vec<Option<usize>>,
+    /// q_x, q_y, p of every state in every loaded cell \[Pa\].
+    tractions: Vec<[f64; 3]>,
+}
+
+impl LoadedCells {
+    fn new(loads: &[Loads], patch: Patch) -> Self {
+        let mut cells = Vec::with_capacity(patch.columns * patch.rows);
+        let mut tractions = Vec::new();
+        let mut count = 0;
+        for j in 0..patch.rows {
+            let rows = loads.iter().map(|load| [0, 1, 2].map(|c| load.row(c, j)));
+            let rows: Vec<_> = rows.collect();
+            for i in 0..patch.columns {
+                let is_loaded = rows.iter().flatten().any(|row| row[i] != 0.0);
+                cells.push(is_loaded.then_some(count));
+                if is_loaded {
+                    count += 1;
+                    tractions.extend(rows.iter().map(|rows| rows.map(|row| row[i])));
+                }
+            }
+        }
+        Self { cells, tractions }
+    }
 }
 
 impl Points {
@@ -40,13 +68,18 @@ impl Points {
         let loaded = Loaded::new(body, side, grid, &states, window)?;
         let plane = Plane::new(grid, false);
         let patches = Source::ALL.map(|source| plane.loaded_patch(states.tractions, source));
-        let loads = states.tractions.iter().map(|state| {
-            Source::ALL.map(|source| plane.loads(state, side, source, patches[source.index()]))
+        let loads = Source::ALL.map(|source| {
+            let patch = patches[source.index()];
+            let of_states = states.tractions.iter();
+            let of_states: Vec<_> = of_states
+                .map(|state| plane.loads(state, side, source, patch))
+                .collect();
+            LoadedCells::new(&of_states, patch)
         });
         Ok(Self {
             loaded,
             plane,
-            loads: loads.collect(),
+            loads,
             patches,
         })
     }
@@ -67,7 +100,7 @@ impl Points {
     /// are the same.
     pub fn stress_with_constant(&self, points: &[Point]) -> Result<[Vec<Vec<[f64; 6]>>; 2], Error> {
         let mut stresses = self.stress_or_both(points, true)?;
-        let constant = stresses.split_off(self.loads.len());
+        let constant = stresses.split_off(self.loaded.states);
         Ok([stresses, constant])
     }
 
@@ -77,7 +110,7 @@ impl Points {
         points: &[Point],
         constant_too: bool,
     ) -> Result<Vec<Vec<[f64; 6]>>, Error> {
-        let states = self.loads.len();
+        let states = self.loaded.states;
         let away_from_steps = |&(x, y, depth): &Point| {
             let rim = self
                 .loaded
@@ -197,7 +230,7 @@ impl Points {
         let of_first = groups
             .iter()
             .find_map(|(_, values): &(_, Vec<Vec<_>>)| values.first());
-        let states = of_first.map_or(self.loads.len(), Vec::len);
+        let states = of_first.map_or(self.loaded.states, Vec::len);
         let mut by_state = vec![vec![[0.0; R]; points.len()]; states];
         for (group, values) in groups {
             for (n, of_states) in group.into_iter().zip(values) {
@@ -256,27 +289,30 @@ impl Points {
             snap_to_half_cells(v / d - middle)
         };
         let from_x = offset(x, 0, patch.start.0, n.0, d.0);
-        let mut sums = vec![[0.0; R]; self.loads.len()];
+        let loads = &self.loads[source.index()];
+        let states = self.loaded.states;
+        let mut sums = vec![[0.0; R]; states];
+        let first = from_x - (patch.columns - 1) as f64;
+        let mut corners = SharedCorners::new(first, patch.columns);
         for j in 0..patch.rows {
             unless(&self.loaded.stop)?;
-            let rows = self.loads.iter().map(|loads| &loads[source.index()]);
-            let rows: Vec<_> = rows
-                .map(|loads| [0, 1, 2].map(|component| loads.row(component, j)))
-                .collect();
             let from_y = offset(y, j, patch.start.1, n.1, d.1) * d.1;
-            let holds = |i: &usize| rows.iter().flatten().any(|row| row[*i] != 0.0);
-            let offsets = (0..patch.columns)
-                .filter(holds)
-                .map(|i| (i, from_x - i as f64));
+            let row = &loads.cells[j * patch.columns..][..patch.columns];
+            let offsets = row.iter().enumerate();
+            let offsets = offsets.filter_map(|(i, load)| load.map(|_| (i, from_x - i as f64)));
             let mut add = |i: usize, response: [[f64; 3]; R]| {
-                for (sums, rows) in sums.iter_mut().zip(&rows) {
+                let Some(place) = row[i] else { return };
+                let of_cell = &loads.tractions[place * states..][..states];
+                for (sums, [q_x, q_y, p]) in sums.iter_mut().zip(of_cell) {
                     for (sum, row) in sums.iter_mut().zip(&response) {
-                        *sum += row[0] * rows[0][i] + row[1] * rows[1][i] + row[2] * rows[2][i];
+                        *sum += row[0] * q_x + row[1] * q_y + row[2] * p;
                     }
                 }
             };
             match source {
-                Source::Cells => kernel.responses_to_cells(offsets, from_y, d, add),
+                Source::Cells => {
+                    kernel.responses_to_cells(offsets, from_y, d, &mut corners, add);
+                }
                 Source::Points => {
                     for (i, from_x) in offsets {
                         let response = kernel.response_to_point(from_x * d.0, from_y);

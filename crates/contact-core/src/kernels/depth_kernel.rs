@@ -6,7 +6,6 @@
 
 use std::f64::consts::TAU;
 use std::marker::PhantomData;
-use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -100,51 +99,24 @@ impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
         sum
     }
 
-    /// The responses to unit traction on the cells at (i dx, y), i in `range`, of the sides `d`.
-    pub fn responses_to_row(
-        &self,
-        range: Range<usize>,
-        y: f64,
-        d: (f64, f64),
-        put: impl FnMut(usize, [[f64; 3]; R]),
-    ) {
-        self.responses_to_cells(range.map(|i| (i, i as f64)), y, d, put);
-    }
-
     /// The responses to unit traction on cells of the sides `d` at an offset y and at offsets along
-    /// x, in cells and a cell apart, each with its index.
+    /// x, in cells and a cell apart, each with its index. `corners` keeps the corners of the row before.
     pub fn responses_to_cells(
         &self,
         cells: impl Iterator<Item = (usize, f64)>,
         y: f64,
         d: (f64, f64),
+        corners: &mut SharedCorners<R>,
         mut put: impl FnMut(usize, [[f64; 3]; R]),
     ) {
-        let side = |x: f64| {
-            self.closed.map(|material| {
-                let corner = |y| Q::corner(&material, (x * d.0, y, self.place.z), self.edge);
-                (corner(y - d.1 / 2.0), corner(y + d.1 / 2.0))
-            })
-        };
-        // Values at the common side of two neighbours.
-        let mut common_side: Option<(f64, _)> = None;
+        corners.start_row(y, d.1);
         for (i, x) in cells {
-            let reuse = |position: f64| {
-                common_side
-                    .as_ref()
-                    .filter(|(x, _)| (x - position).abs() < 0.25)
-                    .map(|(_, s)| *s)
+            let mut sum = match self.closed {
+                Some(material) => corners.difference(x, |x, y| {
+                    Q::corner(&material, (x * d.0, y, self.place.z), self.edge)
+                }),
+                None => [[0.0; 3]; R],
             };
-            let [left, right] = [x - 0.5, x + 0.5].map(|at| reuse(at).unwrap_or_else(|| side(at)));
-            let mut sum = match (&left, &right) {
-                (Some(l), Some(r)) => corner_difference(&r.1, &l.1, &r.0, &l.0),
-                _ => [[0.0; 3]; R],
-            };
-            let next_side = match common_side {
-                Some((previous, _)) if previous > x => (x - 0.5, left),
-                _ => (x + 0.5, right),
-            };
-            common_side = Some(next_side);
             let cell = Cell {
                 x: x * d.0,
                 y,
@@ -171,6 +143,72 @@ impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
         let mut sum = [[0.0; 3]; R];
         Q::add(&mut sum, x, y, g);
         sum
+    }
+}
+
+/// Values at the corners of a row of cells. Neighbours share them, in the row and in the next one.
+pub struct SharedCorners<const R: usize> {
+    /// Offset along x of the first corner \[cells\].
+    first: f64,
+    /// The lower and the upper edge of the row.
+    edges: [Edge<R>; 2],
+}
+
+/// Corners on a line across the cells; empty where nothing asked for them.
+struct Edge<const R: usize> {
+    y: f64,
+    corners: Vec<Option<[[f64; 3]; R]>>,
+}
+
+impl<const R: usize> SharedCorners<R> {
+    /// For so many cells, of which the first has this offset along x \[cells\], and no other a smaller
+    /// one.
+    pub fn new(first: f64, cells: usize) -> Self {
+        let edge = || Edge {
+            y: f64::NAN,
+            corners: vec![None; cells + 1],
+        };
+        Self {
+            first: first - 0.5,
+            edges: [edge(), edge()],
+        }
+    }
+
+    /// Begins a row at the offset y of cells with the width d_y; an edge of the row before is kept.
+    fn start_row(&mut self, y: f64, d_y: f64) {
+        let edges = [y - d_y / 2.0, y + d_y / 2.0];
+        let is_at = |edge: &Edge<R>, y: f64| (edge.y - y).abs() < 0.25 * d_y;
+        let [low, high] = &self.edges;
+        if is_at(low, edges[1]) || is_at(high, edges[0]) {
+            self.edges.swap(0, 1);
+        }
+        for (edge, y) in self.edges.iter_mut().zip(edges) {
+            if !is_at(edge, y) {
+                edge.corners.fill(None);
+                edge.y = y;
+            }
+        }
+    }
+
+    /// The difference of the four corners of the cell at an offset x \[cells\]. `corner` has the value
+    /// at x in cells and y in m.
+    fn difference(&mut self, x: f64, corner: impl Fn(f64, f64) -> [[f64; 3]; R]) -> [[f64; 3]; R] {
+        let first = (x - 0.5 - self.first).round() as usize;
+        let [low, high] = &mut self.edges;
+        for edge in [&mut *low, &mut *high] {
+            for (k, x) in [(first, x - 0.5), (first + 1, x + 0.5)] {
+                edge.corners[k].get_or_insert_with(|| corner(x, edge.y));
+            }
+        }
+        match (
+            &high.corners[first..first + 2],
+            &low.corners[first..first + 2],
+        ) {
+            ([Some(low_x), Some(both)], [Some(opposite), Some(low_y)]) => {
+                corner_difference(both, low_x, low_y, opposite)
+            }
+            _ => unreachable!("all four have just been inserted"),
+        }
     }
 }
 
@@ -205,8 +243,12 @@ pub(crate) fn quadrants<Q: Quantity<N, R> + Sync, const N: usize, const R: usize
         .map(|j| {
             unless(stop)?;
             let first = if j < square { j } else { 0 };
-            let mut row = Vec::with_capacity(n.0 - first.min(n.0));
-            kernel.responses_to_row(first..n.0, j as f64 * d.1, d, |_, s| row.push(s));
+            let cells = first..n.0;
+            let mut row = Vec::with_capacity(cells.len());
+            let mut corners = SharedCorners::new(first as f64, cells.len());
+            let cells = cells.map(|i| (i, i as f64));
+            let y = j as f64 * d.1;
+            kernel.responses_to_cells(cells, y, d, &mut corners, |_, s| row.push(s));
             Ok(row)
         })
         .collect::<Result<_, Error>>()?;

@@ -34,15 +34,20 @@ pub(crate) fn corner(x: f64, y: f64, z: f64, edge: (f64, f64), nu: f64) -> Stres
     let (xz2, yz2) = (x * x + z * z, y * y + z * z);
     let rho_plus_z = rho + z;
     // L_xx, L_yy, L_zz, L_xy, L_xz, L_yz.
-    let depth_angle = angle_or_zero(x * y, z * rho);
-    let l_xx = mean_angle(y, x) - mean_angle(y * z, x * rho);
-    let l_yy = mean_angle(x, y) - mean_angle(x * z, y * rho);
-    let l_zz = -depth_angle;
     let vertex = (edge.0 * edge.0 + edge.1 * edge.1).sqrt();
+    // l_xx = atan(y/x) - atan(y z/(x rho)) in one arc, and L is harmonic.
+    let r2 = x * x + y * y;
+    let l_zz = -angle_or_zero(x * y, z * rho);
+    let (l_xx, l_yy) = if x == 0.0 || y == 0.0 {
+        (0.0, 0.0)
+    } else {
+        let l_xx = (x * y * r2 / (rho_plus_z * (x * x * rho + y * y * z))).atan();
+        (l_xx, -l_zz - l_xx)
+    };
     let (l_xy, l_xz, l_yz) = (
         log_or_zero(rho_plus_z / vertex),
-        log_sum(y, xz2, edge.0),
-        log_sum(x, yz2, edge.1),
+        log_of_sum(y, rho, xz2, edge.0),
+        log_of_sum(x, rho, yz2, edge.1),
     );
     // z times the third derivatives.
     let quotient_or_zero = |numerator: f64, denominator: f64| {
@@ -123,6 +128,16 @@ pub(crate) fn radial_functions(s: f64, z: f64, nu: f64) -> [f64; 10] {
         -1.5 * z * r5,
     ]
     .map(|g| g / (2.0 * PI))
+}
+
+/// [`log_sum`] where rho is there already.
+fn log_of_sum(y: f64, rho: f64, rho2_minus_y2: f64, edge: f64) -> f64 {
+    if y != 0.0 && rho2_minus_y2 > 0.0 {
+        let sum = y.abs() + rho;
+        (0.5 * (sum * sum / rho2_minus_y2).ln()).copysign(y)
+    } else {
+        log_sum(y, rho2_minus_y2, edge)
+    }
 }
 
 /// ln(v), zero at v = 0: there only differences between corners are finite.

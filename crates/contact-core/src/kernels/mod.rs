@@ -35,7 +35,7 @@ pub(crate) use coefficients::norm;
 pub use coefficients::{InfluenceCoefficients, Quadrant};
 pub use convert::{Conversion, SurfaceFrf, convert};
 pub use depth_frf::FrequencyResponse;
-pub use depth_kernel::DepthKernel;
+pub use depth_kernel::{DepthKernel, SharedCorners};
 pub use depth_tables::depth_tables_made;
 pub use displacement::Displacement;
 pub use graded::{Graded, Profile};
