@@ -29,6 +29,8 @@
 //! Tractions below [`ZERO`] times the largest of the history count as zero, and so do the jumps that
 //! they cause: a crack that is unloaded is at rest, whatever the rounding of its stress.
 
+use std::sync::Arc;
+
 use ndarray::{Array1, Array2, s};
 
 use super::Error;
@@ -116,6 +118,10 @@ pub(crate) struct Contact {
     pub(crate) s: Vec<f64>,
 }
 
+/// Factors of the system of the openings, and the open points that it belongs to. They serve the next
+/// pass, and the next instant, as long as the same points are open.
+pub(crate) type OpenFactors = Option<(Vec<usize>, Arc<Lu>)>;
+
 /// Factors of M.
 #[derive(Clone, Debug)]
 enum Factors {
@@ -192,6 +198,7 @@ impl Contact {
         &self,
         instant: &Instant<'_>,
         states: &[Signed],
+        known: &mut OpenFactors,
     ) -> Result<Touching, Unsettled> {
         let n = self.s.len();
         let tight = ZERO * self.compliance * instant.most;
@@ -207,7 +214,7 @@ impl Contact {
         let mut states = states.to_vec();
         let (mut fewest, mut blocks, mut at_fault) = (usize::MAX, BLOCKS, 0);
         for passes in 2..=MOST_PASSES {
-            let Some(jumps) = self.jumps(instant, &states) else {
+            let Some(jumps) = self.jumps(instant, &states, known) else {
                 return Err(Unsettled { passes, at_fault });
             };
             let (tractions, rounding) = self.tractions(instant, &jumps);
@@ -259,7 +266,12 @@ impl Contact {
     }
 
     /// The jumps of points in given states: those that are free, from the equations of their states.
-    fn jumps(&self, instant: &Instant<'_>, states: &[Signed]) -> Option<Array1<f64>> {
+    fn jumps(
+        &self,
+        instant: &Instant<'_>,
+        states: &[Signed],
+        known: &mut OpenFactors,
+    ) -> Option<Array1<f64>> {
         let n = states.len();
         let of = |kind: fn(State) -> bool| (0..n).filter(move |k| kind(states[*k].0));
         let open: Vec<usize> = of(|state| state == State::Open).collect();
@@ -280,10 +292,14 @@ impl Contact {
             None => (row, 0.0),
         };
         let part = |rows: &[usize], columns: &[usize]| {
-            Array2::from_shape_fn((rows.len(), columns.len()), |(i, j)| {
-                let (normal, share) = share(rows[i]);
-                self.matrix[[rows[i], columns[j]]] + share * self.matrix[[normal, columns[j]]]
-            })
+            let mut values = Vec::with_capacity(rows.len() * columns.len());
+            for row in rows {
+                let (normal, share) = share(*row);
+                let [own, normal] = [*row, normal].map(|row| self.matrix.row(row));
+                values.extend(columns.iter().map(|k| own[*k] + share * normal[*k]));
+            }
+            Array2::from_shape_vec((rows.len(), columns.len()), values)
+                .expect("a value for each row and column")
         };
         let right = |rows: &[usize]| -> Array1<f64> {
             let row = |row: &usize| {
@@ -303,7 +319,11 @@ impl Contact {
                 (free, found)
             }
             Factors::Halves { slip, .. } => {
-                let gaps = solve(&open, &right(&open))?;
+                if !matches!(known, Some((points, _)) if *points == open) {
+                    let factors = Lu::new(part(&open, &open))?;
+                    *known = Some((open.clone(), Arc::new(factors)));
+                }
+                let gaps = known.as_ref()?.1.solve(&right(&open));
                 let shears = right(&moves) - part(&moves, &open).dot(&gaps);
                 // Openings do not depend on slip, so that the same factors serve all signs of it.
                 let slips = if moves.len() == n {
@@ -327,15 +347,15 @@ impl Contact {
         let halves = matches!(self.all_open, Factors::Halves { .. });
         let of = |(k, (row, load)): (usize, (ndarray::ArrayView1<'_, f64>, &f64))| {
             let columns = if halves && k < n { n } else { 2 * n };
-            let terms = row
-                .iter()
-                .zip(jumps)
-                .take(columns)
-                .map(|(t, jump)| t * jump);
-            let (sum, sizes) = terms.fold((*load, 0.0), |(sum, sizes), term: f64| {
-                (sum + term, sizes + term.abs())
-            });
-            (sum, ROUNDING * sizes + ZERO * instant.most)
+            // Four sums side by side: each waits for its last term.
+            let (mut sums, mut sizes) = ([0.0; 4], [0.0; 4]);
+            for (k, (t, jump)) in row.iter().zip(jumps).take(columns).enumerate() {
+                let term: f64 = t * jump;
+                sums[k % 4] += term;
+                sizes[k % 4] += term.abs();
+            }
+            let [sum, size] = [sums, sizes].map(|v| v.iter().sum::<f64>());
+            (load + sum, ROUNDING * size + ZERO * instant.most)
         };
         let rows = self.matrix.rows().into_iter().zip(instant.load).enumerate();
         let (tractions, rounding): (Vec<f64>, Vec<f64>) = rows.map(of).unzip();

@@ -3,7 +3,7 @@
 use ndarray::{Array1, s};
 
 use super::Error;
-use super::closure::{Instant, Opening, Signed, State};
+use super::closure::{Instant, OpenFactors, Opening, Signed, State};
 use super::crack::{Crack, Intensity, k_of_density};
 use super::lu::largest;
 use super::stress::{PlaneStress, Traction};
@@ -27,6 +27,7 @@ pub struct Faces {
     load: Array1<f64>,
     most: f64,
     states: Vec<Signed>,
+    open_factors: OpenFactors,
     /// K at the tip; K_I is never below zero.
     pub intensity: Intensity,
     /// Opening of the faces and the pressure between them.
@@ -56,6 +57,7 @@ impl Faces {
             load: Array1::zeros(2 * n),
             most: 0.0,
             states: vec![(State::Open, 0); n],
+            open_factors: None,
             intensity: Intensity::default(),
             opening: Opening {
                 open: vec![false; n],
@@ -108,7 +110,7 @@ impl Faces {
             friction: self.friction,
             before: &before,
         };
-        let unsettled = match contact.settle(&instant, &self.states) {
+        let unsettled = match contact.settle(&instant, &self.states, &mut self.open_factors) {
             Ok(found) => {
                 self.passes += found.passes;
                 self.slip = found.jumps.slice(s![n..]).to_owned();

@@ -23,21 +23,16 @@ impl Lu {
         for first in (0..n).step_by(BLOCK) {
             let last = (first + BLOCK).min(n);
             eliminate(factors.as_slice_mut()?, &mut rows, first, last)?;
-            let (mut above, mut below) = factors.view_mut().split_at(Axis(0), last);
-            let (left, mut right) = above
-                .slice_mut(s![first.., first..])
-                .split_at(Axis(1), last - first);
-            for i in 1..last - first {
-                for k in 0..i {
-                    let (known, mut row) = right.multi_slice_mut((s![k, ..], s![i, ..]));
-                    row.scaled_add(-left[[i, k]], &known);
-                }
+            if last == n {
+                break;
             }
+            finish_rows(factors.as_slice_mut()?, n, first, last);
+            let (above, mut below) = factors.view_mut().split_at(Axis(0), last);
             let left = below.slice(s![.., first..last]).to_owned();
             general_mat_mul(
                 -1.0,
                 &left,
-                &right,
+                &above.slice(s![first.., last..]),
                 1.0,
                 &mut below.slice_mut(s![.., last..]),
             );
@@ -89,6 +84,20 @@ fn eliminate(a: &mut [f64], rows: &mut [usize], first: usize, last: usize) -> Op
         }
     }
     Some(())
+}
+
+/// Takes the multiples of the rows `first..last` off each other beyond the column `last`.
+fn finish_rows(a: &mut [f64], n: usize, first: usize, last: usize) {
+    for i in first + 1..last {
+        let (above, row) = a.split_at_mut(i * n);
+        let (factors, row) = row[..n].split_at_mut(last);
+        for k in first..i {
+            let upper = &above[k * n + last..(k + 1) * n];
+            for (x, u) in row.iter_mut().zip(upper) {
+                *x -= factors[k] * u;
+            }
+        }
+    }
 }
 
 /// Largest absolute entry.
