@@ -7,7 +7,10 @@
 //! them, its section is made deeper. This is possible since the tractions are known, so the field
 //! is known beyond the grid.
 
-use ndarray::{Array1, Array2, ArrayRef, ArrayView2, Axis, Dimension};
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use ndarray::{Array1, Array2, Array3, ArrayRef, ArrayView2, Axis, Dimension};
 
 use super::climb::Start;
 use super::depth::interface_mask;
@@ -69,166 +72,258 @@ struct LineSamples {
     values: Array2<f64>,
 }
 
-/// Finds the largest value of a measure of stress, in one `layer` if given. If `free`, the whole
-/// body is searched, else the section below `line`.
+/// The search for largest values in a body below a contact, prepared for any measure of stress.
 ///
-/// `samples` are the values at the `depths` of the line, of shape (depths, places).
-#[expect(clippy::too_many_lines, reason = "the search, step by step")]
-pub fn find_body_maximum(
-    loads: Loads<'_>,
-    measure: &Measure,
-    (line, free): (Line, bool),
-    (depths, samples): (&[Depth], &ArrayView2<'_, f64>),
-    layer: Option<usize>,
-) -> Result<BodyMaximum, Error> {
-    let Loads {
-        body,
-        side,
-        grid,
-        states,
-    } = loads;
-    let free = free && !grid.plane_strain && grid.ny > 1;
-    let probe = Probe::Stress(*measure);
-    let mut layers: Vec<usize> = depths.iter().map(|d| d.layer).collect();
-    layers.dedup();
-    layers.retain(|n| layer.is_none_or(|layer| layer == *n));
-    let mut sampled = Vec::new();
-    let interface_mask = interface_mask(depths);
-    for n in &layers {
-        let rows: Vec<usize> = (0..depths.len())
-            .filter(|k| depths[*k].layer == *n)
-            .collect();
-        sampled.push(LineSamples {
-            line,
-            depths: rows.iter().map(|k| depths[*k]).collect(),
-            on_interface: rows.iter().map(|k| interface_mask[*k]).collect(),
-            along: line.places(grid),
-            values: samples.select(Axis(0), &rows),
-        });
-    }
-    if free {
-        let own = states.tractions.first().copied().unwrap_or_default();
-        let outline = Outline::new(grid, &own);
-        // Without tractions, as of a residual stress, the section across passes the highest sample.
-        let middle = outline.map_or_else(
-            || line.place(highest_place(line, grid, samples)),
-            |outline| line.place(line.nearest_distance(outline.centre.0, outline.centre.1)),
-        );
-        let across = Line::through(middle, line.azimuth() + RIGHT_ANGLE);
-        let section = Section::new(body, side, grid, across, states.clone())?;
-        for n in 0..layers.len() {
-            let layer_depths = sampled[n].depths.clone();
-            let values = sample_section(&section, measure, &layer_depths)?;
-            sampled.push(LineSamples {
-                line: across,
-                depths: layer_depths,
-                on_interface: sampled[n].on_interface.clone(),
-                along: across.places(grid),
-                values,
-            });
-        }
-    }
-    let search = if free {
-        Search::free(body, side, grid, line, states)?
-    } else {
-        Search::new(body, side, grid, Some(line), states)?
-    };
-    let mut still_rises = Vec::new();
-    let mut reached = depths.to_vec();
-    for sampled_line in &mut sampled {
-        let longer = sampled_line.extend_along(&search, grid, measure)?;
-        let substrate = sampled_line.depths[0].layer == body.coatings.len();
-        let deeper = substrate && sampled_line.extend_down(&search, measure)?;
-        if longer || deeper {
-            still_rises.push(sampled_line.depths[0].layer);
-        }
-        let deepest = reached.last().map_or(0.0, |depth| depth.z);
-        reached.extend(sampled_line.depths.iter().filter(|depth| depth.z > deepest));
-    }
-    still_rises.sort_unstable();
-    still_rises.dedup();
-    let mut starts: Vec<Start> = Vec::new();
-    for sampled_line in &sampled {
-        starts.extend(sampled_line.starts(&search, &probe, layer, free));
-    }
-    let mut surface = None;
-    if free {
-        let slices = Slices::new(body, side, grid, states.clone())?;
-        let (x, y) = (
-            Line::AlongX(0.0).places(grid),
-            Line::AlongY(0.0).places(grid),
-        );
-        for (n, (depth, on_one)) in depths.iter().zip(interface_mask).enumerate() {
-            let is_searched = layer.is_none_or(|layer| layer == depth.layer);
-            // The stresses that act on an interface are the same on both sides.
-            let is_repeated = measure.on_interfaces
-                && layer.is_none()
-                && n > 0
-                && depths[n - 1].z.total_cmp(&depth.z).is_eq();
-            if is_repeated
-                || !is_searched
-                || !(on_one || depth.z <= 0.0)
-                || (measure.on_interfaces && !on_one)
-            {
-                continue;
-            }
-            let planes = slices.stress(*depth)?.swap_remove(0);
-            let plane = Array2::from_shape_fn((grid.nx, grid.ny), |cell| {
-                (measure.value)(&planes.each_ref().map(|layer_depths| layer_depths[cell]))
-            });
-            starts.extend(top_of_plane(&plane, &x, &y).map(|top| {
-                // Off its interface a measure of interfaces has no meaning.
-                let step = if measure.on_interfaces {
-                    0.0
-                } else {
-                    depth_step(depths, *depth)
-                };
-                search.start_at(top.place, *depth, step)
-            }));
-            if depth.z <= 0.0 {
-                surface = Some(plane);
-            }
-        }
-    }
-    let near = |border: &Border| {
-        if let Some(plane) = &surface {
-            let cell = |v: f64, n: usize, d: f64| {
-                let index = (v / d + (n - 1) as f64 / 2.0).round();
-                index.clamp(0.0, (n - 1) as f64) as usize
+/// The section across, the planes and the points under the tractions are computed once.
+pub struct BodySearch {
+    body: Body,
+    grid: Grid,
+    line: Line,
+    depths: Vec<Depth>,
+    search: Search,
+    /// Samples beside the section, if the whole body is searched.
+    beside: Option<Beside>,
+}
+
+/// Samples beside the section, of the six stresses.
+struct Beside {
+    /// The line across the section, and the section below it.
+    across: Line,
+    section: Section,
+    slices: Slices,
+    /// The search on the line of the section.
+    on_line: Search,
+    /// Whether the line across passes the highest sample of the measure, for want of a contact.
+    follows_samples: bool,
+    /// Stress across by layer, and planes by the number of their depth.
+    sections: Mutex<HashMap<usize, Arc<Array3<f64>>>>,
+    planes: Mutex<HashMap<usize, Arc<[Array2<f64>; 6]>>>,
+}
+
+impl BodySearch {
+    /// Prepares the search in the whole body if `free`, else on the section below `line`.
+    ///
+    /// `samples` are values at the `depths` of the line, of shape (depths, places).
+    pub fn new(
+        loads: Loads<'_>,
+        (line, free): (Line, bool),
+        (depths, samples): (&[Depth], &ArrayView2<'_, f64>),
+    ) -> Result<Self, Error> {
+        let Loads {
+            body,
+            side,
+            grid,
+            states,
+        } = loads;
+        let free = free && !grid.plane_strain && grid.ny > 1;
+        let (search, beside) = if free {
+            let search = Search::free(body, side, grid, line, states)?;
+            let first_tractions = states.tractions.first().copied().unwrap_or_default();
+            let outline = Outline::new(grid, &first_tractions);
+            let follows_samples = outline.is_none();
+            // Without tractions, as of a residual stress, the section across passes the highest sample.
+            let middle = outline.map_or_else(
+                || line.place(highest_place(line, grid, samples)),
+                |outline| line.place(line.nearest_distance(outline.centre.0, outline.centre.1)),
+            );
+            let across = Line::through(middle, line.azimuth() + RIGHT_ANGLE);
+            let beside = Beside {
+                across,
+                section: Section::new(body, side, grid, across, states.clone())?,
+                slices: Slices::new(body, side, grid, states.clone())?,
+                on_line: search.on_line(line),
+                follows_samples,
+                sections: Mutex::default(),
+                planes: Mutex::default(),
             };
-            return plane[(
-                cell(border.x, grid.nx, grid.dx),
-                cell(border.y, grid.ny, grid.dy),
-            )];
-        }
-        let along = line.places(grid);
-        let s = line.nearest_distance(border.x, border.y);
-        let nearest =
-            (0..along.len()).min_by(|&a, &b| (along[a] - s).abs().total_cmp(&(along[b] - s).abs()));
-        nearest.map_or(f64::NAN, |n| samples[(0, n)])
-    };
-    let mut largest = search.ascend(&probe, starts, &reached, layer, &near)?;
-    if free {
-        // A narrow ridge along the section is followed on it to its top.
-        let search = search.on_line(line);
-        let mut starts: Vec<Start> = Vec::new();
-        for sampled_line in sampled
-            .iter()
-            .filter(|sampled_line| sampled_line.line == line)
-        {
-            starts.extend(sampled_line.starts(&search, &probe, layer, false));
-        }
-        let on_line = search.ascend(&probe, starts, &reached, layer, &near)?;
-        largest = match (largest, on_line) {
-            (Some(free), Some(on_line)) if on_line.value > free.value => Some(on_line),
-            (free, on_line) => free.or(on_line),
+            (search, Some(beside))
+        } else {
+            (Search::new(body, side, grid, Some(line), states)?, None)
         };
+        Ok(Self {
+            body: body.clone(),
+            grid: *grid,
+            line,
+            depths: depths.to_vec(),
+            search,
+            beside,
+        })
     }
-    largest = largest.filter(|top| top.value >= 0.0 || !still_rises.contains(&top.depth.layer));
-    Ok(BodyMaximum {
-        largest,
-        still_rises,
-    })
+
+    /// Whether the search serves any measure, not the measure of its samples alone.
+    pub fn serves_all_measures(&self) -> bool {
+        self.beside
+            .as_ref()
+            .is_none_or(|beside| !beside.follows_samples)
+    }
+
+    /// Finds the largest value of a measure, in one `layer` if given, from its `samples` on the section.
+    #[expect(clippy::too_many_lines, reason = "the search, step by step")]
+    pub fn find(
+        &self,
+        measure: &Measure,
+        samples: &ArrayView2<'_, f64>,
+        layer: Option<usize>,
+    ) -> Result<BodyMaximum, Error> {
+        let (grid, line, depths) = (&self.grid, self.line, &self.depths[..]);
+        let probe = Probe::Stress(*measure);
+        let mut layers: Vec<usize> = depths.iter().map(|d| d.layer).collect();
+        layers.dedup();
+        layers.retain(|n| layer.is_none_or(|layer| layer == *n));
+        let mut sampled = Vec::new();
+        let interface_mask = interface_mask(depths);
+        for n in &layers {
+            let rows: Vec<usize> = (0..depths.len())
+                .filter(|k| depths[*k].layer == *n)
+                .collect();
+            sampled.push(LineSamples {
+                line,
+                depths: rows.iter().map(|k| depths[*k]).collect(),
+                on_interface: rows.iter().map(|k| interface_mask[*k]).collect(),
+                along: line.places(grid),
+                values: samples.select(Axis(0), &rows),
+            });
+        }
+        if let Some(beside) = &self.beside {
+            for n in 0..layers.len() {
+                let layer_depths = sampled[n].depths.clone();
+                let stress = beside.stress_across(layers[n], &layer_depths)?;
+                sampled.push(LineSamples {
+                    line: beside.across,
+                    depths: layer_depths,
+                    on_interface: sampled[n].on_interface.clone(),
+                    along: beside.across.places(grid),
+                    values: measure.on_lines(&stress),
+                });
+            }
+        }
+        let search = &self.search;
+        let mut still_rises = Vec::new();
+        let mut reached = depths.to_vec();
+        for sampled_line in &mut sampled {
+            let longer = sampled_line.extend_along(search, grid, measure)?;
+            let substrate = sampled_line.depths[0].layer == self.body.coatings.len();
+            let deeper = substrate && sampled_line.extend_down(search, measure)?;
+            if longer || deeper {
+                still_rises.push(sampled_line.depths[0].layer);
+            }
+            let deepest = reached.last().map_or(0.0, |depth| depth.z);
+            reached.extend(sampled_line.depths.iter().filter(|depth| depth.z > deepest));
+        }
+        still_rises.sort_unstable();
+        still_rises.dedup();
+        let mut starts: Vec<Start> = Vec::new();
+        for sampled_line in &sampled {
+            starts.extend(sampled_line.starts(search, &probe, layer, self.beside.is_some()));
+        }
+        let mut surface = None;
+        if let Some(beside) = &self.beside {
+            let (x, y) = (
+                Line::AlongX(0.0).places(grid),
+                Line::AlongY(0.0).places(grid),
+            );
+            for (n, (depth, on_one)) in depths.iter().zip(interface_mask).enumerate() {
+                let is_searched = layer.is_none_or(|layer| layer == depth.layer);
+                // The stresses that act on an interface are the same on both sides.
+                let is_repeated = measure.on_interfaces
+                    && layer.is_none()
+                    && n > 0
+                    && depths[n - 1].z.total_cmp(&depth.z).is_eq();
+                if is_repeated
+                    || !is_searched
+                    || !(on_one || depth.z <= 0.0)
+                    || (measure.on_interfaces && !on_one)
+                {
+                    continue;
+                }
+                let planes = beside.stress_on_plane(n, *depth)?;
+                let plane = Array2::from_shape_fn((grid.nx, grid.ny), |cell| {
+                    (measure.value)(&planes.each_ref().map(|component| component[cell]))
+                });
+                starts.extend(top_of_plane(&plane, &x, &y).map(|top| {
+                    // Off its interface a measure of interfaces has no meaning.
+                    let step = if measure.on_interfaces {
+                        0.0
+                    } else {
+                        depth_step(depths, *depth)
+                    };
+                    search.start_at(top.place, *depth, step)
+                }));
+                if depth.z <= 0.0 {
+                    surface = Some(plane);
+                }
+            }
+        }
+        let near = |border: &Border| {
+            if let Some(plane) = &surface {
+                let cell = |v: f64, n: usize, d: f64| {
+                    let index = (v / d + (n - 1) as f64 / 2.0).round();
+                    index.clamp(0.0, (n - 1) as f64) as usize
+                };
+                return plane[(
+                    cell(border.x, grid.nx, grid.dx),
+                    cell(border.y, grid.ny, grid.dy),
+                )];
+            }
+            let along = line.places(grid);
+            let s = line.nearest_distance(border.x, border.y);
+            let nearest = (0..along.len())
+                .min_by(|&a, &b| (along[a] - s).abs().total_cmp(&(along[b] - s).abs()));
+            nearest.map_or(f64::NAN, |n| samples[(0, n)])
+        };
+        let mut largest = search.ascend(&probe, starts, &reached, layer, &near)?;
+        if let Some(Beside { on_line, .. }) = &self.beside {
+            // A narrow ridge along the section is followed on it to its top.
+            let mut starts: Vec<Start> = Vec::new();
+            for sampled_line in sampled
+                .iter()
+                .filter(|sampled_line| sampled_line.line == line)
+            {
+                starts.extend(sampled_line.starts(on_line, &probe, layer, false));
+            }
+            let on_line = on_line.ascend(&probe, starts, &reached, layer, &near)?;
+            largest = match (largest, on_line) {
+                (Some(free), Some(on_line)) if on_line.value > free.value => Some(on_line),
+                (free, on_line) => free.or(on_line),
+            };
+        }
+        largest = largest.filter(|top| top.value >= 0.0 || !still_rises.contains(&top.depth.layer));
+        Ok(BodyMaximum {
+            largest,
+            still_rises,
+        })
+    }
+}
+
+impl Beside {
+    /// The stress on the section across, at the depths of a layer.
+    fn stress_across(&self, layer: usize, depths: &[Depth]) -> Result<Arc<Array3<f64>>, Error> {
+        keep(&self.sections, layer, || {
+            Ok(self.section.stress(depths)?.swap_remove(0))
+        })
+    }
+
+    /// The stress on the plane at a depth.
+    fn stress_on_plane(&self, number: usize, depth: Depth) -> Result<Arc<[Array2<f64>; 6]>, Error> {
+        keep(&self.planes, number, || {
+            Ok(self.slices.stress(depth)?.swap_remove(0))
+        })
+    }
+}
+
+/// The value with a key, computed where it is not kept.
+fn keep<T>(
+    kept: &Mutex<HashMap<usize, Arc<T>>>,
+    key: usize,
+    compute: impl FnOnce() -> Result<T, Error>,
+) -> Result<Arc<T>, Error> {
+    let lock = || kept.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(value) = lock().get(&key) {
+        return Ok(value.clone());
+    }
+    let value = Arc::new(compute()?);
+    lock().insert(key, value.clone());
+    Ok(value)
 }
 
 /// The place of the largest sample of a section \[m\].
@@ -260,16 +355,6 @@ fn largest_sample<D: Dimension>(samples: &ArrayRef<f64, D>) -> f64 {
 /// small where the samples are everywhere negative.
 fn level(part: f64, largest: f64) -> f64 {
     largest - (1.0 - part) * largest.abs()
-}
-
-/// Values of a measure under the first state at the depths below the section's line, shape (depths, places).
-fn sample_section(
-    section: &Section,
-    measure: &Measure,
-    depths: &[Depth],
-) -> Result<Array2<f64>, Error> {
-    let stress = section.stress(depths)?.swap_remove(0);
-    Ok(measure.on_lines(&stress))
 }
 
 impl LineSamples {

@@ -6,6 +6,8 @@
 //! the estimate. Beside a rim a value depends on where the rim lies in its cell, so that one change
 //! may vanish by chance.
 
+use std::sync::Arc;
+
 use contact_core::Error;
 use contact_core::convolution::Tractions;
 use contact_core::scene::{Body, Grid};
@@ -15,7 +17,7 @@ use super::{Border, Depth, DoubledCells, Eigenstress, Line, Point, Points, Side,
 
 /// A body under the tractions of the first of some states on cells twice as large.
 pub(super) struct CoarserCells {
-    points: Points,
+    points: Arc<Points>,
     borders: Vec<Border>,
     /// The middle of its grid \[m\].
     middle: (f64, f64),
@@ -68,7 +70,7 @@ impl CoarserCells {
             eigenstress: &eigenstress,
             ..states.clone()
         };
-        let points = Points::new(body, side, &cells.grid, states)?;
+        let points = Arc::new(Points::new(body, side, &cells.grid, states)?);
         Ok(Self {
             borders: points.borders(0, line),
             points,
@@ -77,11 +79,12 @@ impl CoarserCells {
     }
 
     /// Keeps only the borders on a line of the fine grid.
-    pub(super) fn on_line(self, line: Line) -> Self {
+    pub(super) fn on_line(&self, line: Line) -> Self {
         let line = line.with_origin(self.middle).0;
         Self {
             borders: self.points.borders(0, Some(line)),
-            ..self
+            points: self.points.clone(),
+            middle: self.middle,
         }
     }
 

@@ -56,7 +56,7 @@ mod states;
 mod stream;
 mod uniform;
 
-pub use body_maximum::{BodyMaximum, Loads, find_body_maximum};
+pub use body_maximum::{BodyMaximum, BodySearch, Loads};
 pub use borders::{Border, Zone, borders};
 pub use cycle_recorder::CycleRecorder;
 pub use depth::{Depth, Point, Side, default_depths, depths};

@@ -4,6 +4,8 @@
 //! borders cross the line. From the highest of these the search ascends ([`climb`]). No value is
 //! extrapolated.
 
+use std::sync::Arc;
+
 use contact_core::Error;
 use contact_core::scene::{Body, Grid};
 use ndarray::{Array2, ArrayView2, Axis};
@@ -40,7 +42,7 @@ const CONTINUED_FACTOR: f64 = 0.547;
 
 /// Looks for the largest values below a contact.
 pub struct Search {
-    pub(super) points: Points,
+    pub(super) points: Arc<Points>,
     coarser: [CoarserCells; 2],
     borders: Vec<Border>,
     /// The line whose directions the ascent takes, along, across.
@@ -75,14 +77,15 @@ impl Search {
         })
     }
 
-    /// Restricts the search to the plane below a line.
-    pub(super) fn on_line(self, line: Line) -> Self {
+    /// The search on a line alone, by the same points.
+    pub(super) fn on_line(&self, line: Line) -> Self {
         Self {
             borders: self.points.borders(0, Some(line)),
-            coarser: self.coarser.map(|coarser| coarser.on_line(line)),
+            coarser: self.coarser.each_ref().map(|coarser| coarser.on_line(line)),
             line: Some(line),
             free: false,
-            ..self
+            points: self.points.clone(),
+            ..*self
         }
     }
 
@@ -102,7 +105,7 @@ impl Search {
             ..states.clone()
         };
         let coarser = CoarserCells::new_pair(body, side, grid, line, &states)?;
-        let points = Points::new(body, side, grid, states)?;
+        let points = Arc::new(Points::new(body, side, grid, states)?);
         let cell = if grid.ny == 1 {
             grid.dx
         } else {

@@ -11,8 +11,8 @@ use contact_core::scene::{Body, Profile, ResidualStress, Scene};
 use contact_core::zones::Outline;
 use contact_store::{ImageData, Store, StressStore, VolumeSink, write_volume};
 use contact_subsurface::{
-    BodyMaximum, Depth, Line, Loads as LoadedBody, Probe, Search, Section, Side, Slices, States,
-    default_depths, depths, find_body_maximum,
+    BodyMaximum, BodySearch, Depth, Line, Loads as LoadedBody, Probe, Search, Section, Side,
+    Slices, States, default_depths, depths,
 };
 use ndarray::Axis;
 
@@ -342,6 +342,8 @@ impl Task {
         let values_and_largest = section.probe(&depths, &along, &self.probes, &search)?;
         let largest_of = self.largest();
         let mut lines = Vec::new();
+        // All measures share one search.
+        let mut kept_search: Option<BodySearch> = None;
         for (n, (probe, (values, largest))) in
             self.probes.iter().zip(&values_and_largest).enumerate()
         {
@@ -351,14 +353,17 @@ impl Task {
             match probe {
                 Probe::Stress(measure) if anywhere => {
                     let samples = values.select(Axis(0), &of_chosen);
-                    let samples = (&self.chosen[..], &samples.view());
-                    let values_and_largest = find_body_maximum(
-                        self.loaded_body(&states),
-                        measure,
-                        (line, true),
-                        samples,
-                        None,
-                    )?;
+                    let samples = samples.view();
+                    let search = match kept_search.take_if(|search| search.serves_all_measures()) {
+                        Some(search) => search,
+                        None => BodySearch::new(
+                            self.loaded_body(&states),
+                            (line, true),
+                            (&self.chosen, &samples),
+                        )?,
+                    };
+                    let values_and_largest = search.find(measure, &samples, None)?;
+                    kept_search = Some(search);
                     warn_of_rising_stress(probe, self.body(), &values_and_largest);
                     let axes: &[&str] = if grid.plane_strain {
                         &["x"]

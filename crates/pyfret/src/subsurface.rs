@@ -1,6 +1,7 @@
 //! Stress and displacement below the surface.
 
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use contact_core::convolution::Tractions;
 use contact_core::scene::{self, ResidualStress};
@@ -74,7 +75,23 @@ pub(crate) struct Subsurface {
     /// Whether they are tractions of a contact, and the cells that stick.
     rim: bool,
     stick: Option<Vec<bool>>,
+    /// The last search, which serves other measures and layers.
+    search: Mutex<Option<KeptSearch>>,
 }
+
+/// A prepared search for largest values, below a line or anywhere.
+#[derive(Clone)]
+struct KeptSearch {
+    line: core::Line,
+    anywhere: bool,
+    depths: Vec<Depth>,
+    search: Arc<core::BodySearch>,
+    /// Once raised, the search has ended early.
+    stop: Arc<AtomicBool>,
+}
+
+/// Most cells of a grid whose search is kept: it holds about 0.5 kB per cell.
+const MOST_SEARCHED: usize = 256 * 256;
 
 /// A largest value: itself, x, y, z, layer, the border that it lies on, its error and its errors by
 /// source.
@@ -136,6 +153,49 @@ impl Subsurface {
         work(&self.body.0, &self.grid.0, states)
     }
 
+    /// The search for largest values, kept for other measures and layers.
+    fn search(
+        &self,
+        py: Python<'_>,
+        (line, anywhere): (core::Line, bool),
+        depths: &[Depth],
+        samples: &Array2<f64>,
+    ) -> Answer<KeptSearch> {
+        let lock = || self.search.lock().unwrap_or_else(PoisonError::into_inner);
+        let suits = |kept: &KeptSearch| {
+            kept.line == line
+                && kept.anywhere == anywhere
+                && kept.depths == depths
+                && !kept.stop.load(Ordering::Relaxed)
+        };
+        if let Some(kept) = lock().clone().filter(suits) {
+            return Ok(kept);
+        }
+        let stop: Arc<AtomicBool> = Arc::default();
+        let search = interruptible(py, &stop, || {
+            self.with_states(&stop, |body, grid, states| {
+                let loads = core::Loads {
+                    body,
+                    side: self.side,
+                    grid,
+                    states: &states,
+                };
+                core::BodySearch::new(loads, (line, anywhere), (depths, &samples.view()))
+            })
+        })??;
+        let made = KeptSearch {
+            line,
+            anywhere,
+            depths: depths.to_vec(),
+            search: Arc::new(search),
+            stop,
+        };
+        if made.search.serves_all_measures() && self.grid.0.cells() <= MOST_SEARCHED {
+            *lock() = Some(made.clone());
+        }
+        Ok(made)
+    }
+
     /// Prepares planes below the contact.
     fn slices(&self, stop: &Arc<AtomicBool>) -> Result<core::Slices, contact_core::Error> {
         self.with_states(stop, |body, grid, states| {
@@ -182,6 +242,7 @@ impl Subsurface {
             eigenstress: of_states(eigenstress),
             body,
             grid,
+            search: Mutex::default(),
         })
     }
 
@@ -293,18 +354,9 @@ impl Subsurface {
         }
         let measure = core::find_measure(of)
             .ok_or_else(|| PyValueError::new_err(format!("{of:?}: is no measure of stress")))?;
-        let extremum = stoppable(py, |stop| {
-            self.with_states(stop, |body, grid, states| {
-                let loads = core::Loads {
-                    body,
-                    side: self.side,
-                    grid,
-                    states: &states,
-                };
-                let samples = (&depths[..], &samples.view());
-                core::find_body_maximum(loads, measure, (line, anywhere), samples, only)
-            })
-        })??;
+        let kept = self.search(py, (line, anywhere), &depths, &samples)?;
+        let find = || kept.search.find(measure, &samples.view(), only);
+        let extremum = interruptible(py, &kept.stop, find)??;
         let largest = extremum.largest.map(|m| {
             let m = error_bar.map_or(m, |stress| m.with_error_bars(stress));
             let at = m.at.map(zone_name);
