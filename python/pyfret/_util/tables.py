@@ -16,4 +16,6 @@ def as_table(dataset: xr.Dataset) -> Table:
     """Return a dataset with ``to_csv`` and ``to_excel``."""
     from pyfret._util.labelled_table import Table
 
-    return Table(dataset.data_vars, dataset.coords, dataset.attrs)
+    # Variables have no coordinates of their own, which a dataset would align one by one.
+    variables = {name: dataset.variables[name] for name in dataset.data_vars}
+    return Table(variables, dataset.coords, dataset.attrs)
