@@ -74,6 +74,11 @@ impl AnswerMemory {
                 "lives, load factors: the stress of one cycle and body is computed once and shared, {}",
                 megabytes(self.cycle)
             ),
+            "largest values: the section of one state and body is sampled once and shared by all questions; \
+             its search up to 256 x 256 cells"
+                .into(),
+            "cracks: the contact of one cycle and body is prepared once and shared, at most 128 MB"
+                .into(),
             format!(
                 "largest stresses of a study: the sections are sampled once and shared, {}",
                 megabytes(self.sections)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
+from zlib import crc32
 
 import numpy as np
 
@@ -45,6 +46,10 @@ BEYOND = 1.5
 FIT = 0.05
 #: Error of the place of a rim [cells].
 RIM = 0.1
+
+#: Most memory of the prepared contact that cracks of a run share, and its part of a cell and
+#: increment [bytes].
+MOST_SHARED, BYTES = 128e6, 170.0
 
 UNITS = {"units": "Pa m^0.5"}
 
@@ -272,9 +277,8 @@ class Cycle:
 
     def shortest(self, part: float) -> float:
         """A length that is a part of half the width of the contact, and beyond the coatings [m]."""
-        scene = self.result.scene
-        body = scene.body1 if self.body_number == 1 else scene.body2
-        return max(part * self.half_width, BEYOND * sum(c.thickness for c in body.coatings))
+        thickness = sum(coating.thickness for coating in self.body.coatings)
+        return max(part * self.half_width, BEYOND * thickness)
 
     @property
     def lengths(self) -> NDArray[np.float64]:
@@ -292,11 +296,39 @@ class Cycle:
         ]
 
     @cached_property
+    def shared(self) -> tuple[_core.ContactForCracks, dict[tuple[object, ...], int]]:
+        """The prepared contact and the mouths chosen before, which all cracks of a run share.
+
+        A run keeps one cycle of each body, about 128 MB at most.
+        """
+        d = self.result.dataset
+        size = BYTES * self.increments.size * d.sizes["x"] * d.sizes["y"]
+        if self.residual is not None or self.body.yields or size > MOST_SHARED:
+            return self.prepare(), {}
+        last = d.variables["p"].isel(saved=-1).values
+        key = self.increments.tobytes(), crc32(np.ascontiguousarray(last).tobytes())
+        name = f"cracks in body {self.body_number}"
+        kept = self.result.shared.get(name)
+        if kept is None or kept[0] != key:
+            kept = self.result.shared[name] = (key, (self.prepare(), {}))
+        shared: tuple[_core.ContactForCracks, dict[tuple[object, ...], int]] = kept[1]
+        return shared
+
+    @property
     def contact(self) -> _core.ContactForCracks:
         """Return the states in the form of the core, prepared for cracks."""
+        return self.shared[0]
+
+    @property
+    def body(self) -> _core.Body:
+        """Return the body with the crack."""
         scene = self.result.scene
+        return scene.body1 if self.body_number == 1 else scene.body2
+
+    def prepare(self) -> _core.ContactForCracks:
+        """Prepare the states for cracks."""
         return _core.ContactForCracks(
-            scene.body1 if self.body_number == 1 else scene.body2,
+            self.body,
             states_of_increments(self.result, self.increments.tolist(), self.body_number),
             residual=None if self.residual is None else list(self.residual),
             body_number=self.body_number,
@@ -337,9 +369,12 @@ class Cycle:
         if len(places) == 1:
             return places[0]
         lengths = (self.half_width * np.array([0.05, 0.1, 0.2, 0.4])).tolist()
-        return places[
-            self.contact.widest_range(places, lengths=lengths, angle=angle, friction=friction)
-        ]
+        contact, chosen = self.shared
+        key = (*places, *lengths, angle, friction)
+        if key not in chosen:
+            options = {"lengths": lengths, "angle": angle, "friction": friction}
+            chosen[key] = contact.widest_range(places, **options)
+        return places[chosen[key]]
 
 
 def labelled(

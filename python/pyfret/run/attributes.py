@@ -18,10 +18,15 @@ __all__ = ["OfRun"]
 class OfRun(Labelled):
     """A dataset whose attributes identify its run."""
 
-    def __init__(self, dataset: xr.Dataset, scene: Scene | None = None) -> None:
+    def __init__(
+        self,
+        dataset: xr.Dataset,
+        scene: Scene | None = None,
+        shared: dict[str, Any] | None = None,
+    ) -> None:
         super().__init__(dataset)
         self._scene = scene
-        self._shared: dict[str, Any] = {}
+        self._shared: dict[str, Any] = {} if shared is None else shared
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the state to pickle or copy, without what was computed from the dataset."""
@@ -29,7 +34,10 @@ class OfRun(Labelled):
 
     @property
     def shared(self) -> dict[str, Any]:
-        """Numbers that several questions share, by their kind; copies and files leave them out."""
+        """Numbers that several questions share, by their kind; copies and files leave them out.
+
+        A run and its states have the same ones.
+        """
         return self._shared
 
     @property

@@ -190,8 +190,8 @@ class Run(OfRun):
         """
         return State(*self._kept(one_of(which, t)))
 
-    def _kept(self, which: float) -> tuple[xr.Dataset, Scene]:
-        """Return the fields and scalars of an increment of :meth:`at`, and the scene."""
+    def _kept(self, which: float) -> tuple[xr.Dataset, Scene, dict[str, Any]]:
+        """Return fields and scalars of an increment of :meth:`at`, the scene, shared numbers."""
         if isinstance(which, bool) or not isinstance(which, numbers.Real):
             raise TypeError(
                 f"which = {which!r:.60}: must be an increment, such as 5, or -1 for the last that "
@@ -223,7 +223,7 @@ class Run(OfRun):
                 if yielded_rows.size
                 else slice(0)
             )
-        return row, self.scene
+        return row, self.scene, self.shared
 
     def error_bars(self) -> xr.Dataset:
         """Estimated errors of the numbers at the end of every branch: dims (branch, part).

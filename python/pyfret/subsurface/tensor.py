@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+from zlib import crc32
 
 import numpy as np
 
@@ -55,9 +56,12 @@ class Stress(Labelled, Figured):
         dataset: xr.Dataset,
         below: _core.Subsurface | None = None,
         materials: Sequence[_core.Elastic] = (),
+        known: dict[tuple[object, ...], Any] | None = None,
     ) -> None:
         super().__init__(dataset)
         self._below = below
+        #: Answers of :meth:`maximum` by measure, layer and samples, which copies share.
+        self._known: dict[tuple[object, ...], Any] = {} if known is None else known
         #: Materials of the layers from the surface down, the substrate's last.
         self._materials = list(materials)
 
@@ -67,7 +71,13 @@ class Stress(Labelled, Figured):
 
     def assign_attrs(self, attrs: dict[str, object]) -> Stress:
         """Give the same stress with more attributes of its dataset."""
-        return Stress(self.dataset.assign_attrs(attrs), self._below, self._materials)
+        dataset = self.dataset.assign_attrs(attrs)
+        return Stress(dataset, self._below, self._materials, self._known)
+
+    def __copy__(self) -> Stress:
+        """Copy the samples; the copy shares the search for largest values."""
+        dataset = self.dataset.copy(deep=True)
+        return Stress(dataset, self._below, self._materials, self._known)
 
     def _tensor(self) -> NDArray[np.float64]:
         """The components as an array of shape (6, number of points)."""
@@ -186,16 +196,25 @@ class Stress(Labelled, Figured):
             layer = layer_index(layer, coatings, set(layers), self._materials)
         if self._below is None:
             raise ValueError("maximum() needs the full section; call `stress(...)` first")
-        extremum, rises = self._below.maximum(
-            of,
-            self.measure(of).values,
-            depths,
-            layers,
-            only=layer,
-            error_bar=self.dataset.attrs.get("stress_error"),
-            anywhere=bool(self.dataset.attrs.get("anywhere", 0)),
-            **line_of(self.dataset).named(),
-        )
+        samples = self.measure(of).values
+        error_bar = self.dataset.attrs.get("stress_error")
+        anywhere = bool(self.dataset.attrs.get("anywhere", 0))
+        line = line_of(self.dataset)
+        checksum = crc32(np.ascontiguousarray(samples).tobytes())
+        places = samples.shape, tuple(depths), tuple(layers), line
+        key = (of, layer, checksum, *places, error_bar, anywhere)
+        if key not in self._known:
+            self._known[key] = self._below.maximum(
+                of,
+                samples,
+                depths,
+                layers,
+                only=layer,
+                error_bar=error_bar,
+                anywhere=anywhere,
+                **line.named(),
+            )
+        extremum, rises = self._known[key]
         if rises and extremum is None:
             raise ValueError(
                 f"{of} is negative below the contact and rises with the distance from it: "
