@@ -185,6 +185,7 @@ bench-fe: setup ## the coated line contact by CalculiX (package calculix-ccx) an
 
 bench-growth: setup ## how the cost of answers grows with cells, increments, cycles, layers; the table goes to docs/performance.md
 	$(PY) benches/growth.py --document docs/performance.md
+	$(PY) benches/growth_large.py --document docs/performance.md
 
 bench-peers: setup ## side by side with public programs and FFTW: out/peers*
 	$(PY) benches/peers.py --out out

@@ -1,9 +1,10 @@
 """What answers cost beside the solution of their contact, and how well they are known.
 
-Times are processor times over that of the solution of the same contact, medians of several
-repetitions in one process. Each question is asked alone, of a result of which nothing else was
-asked. The last row asks all of them of one result. The change of an answer by twice as many depths
-stands beside its printed error: an answer must not become faster by becoming worse. ::
+Times are processor times, medians of several repetitions in one process for each number of threads.
+Each question is asked alone, of a result of which nothing else was asked. The last row asks all of
+them of one result. The change of an answer by twice as many depths stands beside its printed error:
+an answer must not become faster by becoming worse. Tasks of many answers are in
+:mod:`answer_tasks`. ::
 
     python benches/answers.py --document docs/performance.md
 """
@@ -12,6 +13,9 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
+import subprocess
+import sys
 import time
 import warnings
 from functools import partial
@@ -47,7 +51,13 @@ CRITERIA: tuple[CriterionName, ...] = (
     "matake",
     "mcdiarmid",
 )
-CONTACTS = ("bare", "coated", "line", "yielding")
+#: Contacts with their cells a side, by the number of threads. A solution of the body that yields
+#: takes half a minute: it is measured once.
+CONTACTS = {
+    1: [("bare", 64), ("bare", 128), ("coated", 64), ("coated", 128), ("line", 128)],
+    2: [("coated", 64), ("coated", 128)],
+}
+ONCE = [("yielding", 48)]
 
 
 class Known(NamedTuple):
@@ -156,15 +166,16 @@ def timed(work: Callable[[], Any]) -> tuple[float, Any]:
     return time.process_time() - begun, result
 
 
-def measure(kind: str, cells: int, repeat: int) -> dict[str, Any]:
-    """Measure all questions about a contact on a grid."""
+def measure(kind: str, cells: int, repeat: int, *, errors: bool) -> dict[str, Any]:
+    """Measure all questions about a contact on a grid; with `errors` the changes by more depths."""
     scene = contact(kind, cells)
 
     def solve() -> fret.Result:
         return fret.solve(scene, save="all", progress=False)
 
-    run = solve()
-    unit = median(timed(solve)[0] for _ in range(repeat))
+    unit, run = timed(solve)
+    if repeat > 1:
+        unit = median(timed(solve)[0] for _ in range(repeat))
     row: dict[str, Any] = {"contact": kind, "cells": cells, "solve_s": unit}
     row["increments"] = int(run.dataset.sizes["increment"])
     asked = [question for question in QUESTIONS if kind not in question.unsuited]
@@ -176,8 +187,8 @@ def measure(kind: str, cells: int, repeat: int) -> dict[str, Any]:
             fresh = fret.Result(run.dataset)
             seconds, known = timed(partial(question.ask, fresh, None))
             times.append(seconds)
-        answer = {"ratio": median(times) / unit, "value": known.value, "error": known.error}
-        if question.depths:
+        answer = {"seconds": median(times), "value": known.value, "error": known.error}
+        if question.depths and errors:
             by_depths = question.ask(fret.Result(run.dataset), finer)
             answer["change"] = abs(by_depths.value - known.value)
         answers[question.title] = answer
@@ -185,7 +196,7 @@ def measure(kind: str, cells: int, repeat: int) -> dict[str, Any]:
     tables = _core.depth_tables_made()
     whole, _ = timed(lambda: [question.ask(together, None) for question in asked])
     row["tables"] = _core.depth_tables_made() - tables
-    answers["all of these of one result"] = {"ratio": whole / unit}
+    answers["all of these of one result"] = {"seconds": whole}
     return row | {"answers": answers}
 
 
@@ -193,15 +204,20 @@ def tabulate(rows: list[dict[str, Any]]) -> str:
     """Return the table of the page: cost over the solution, and error and change over the value."""
     heads = ["question", *(f"{row['contact']}, {row['cells']}" for row in rows)]
     titles = [question.title for question in QUESTIONS] + ["all of these of one result"]
-    solutions = ["solution, processor time", *(f"{row['solve_s']:.2g} s" for row in rows)]
-    lines = [solutions]
-    for title in titles:
-        answers = [row["answers"].get(title) for row in rows]
-        lines.append([title, *("" if of is None else f"{of['ratio']:.2g}" for of in answers)])
+    lines = [["solution, processor time", *(f"{row['solve_s']:.2g} s" for row in rows)]]
+    lines += [[title, *(cost(row, title) for row in rows)] for title in titles]
     lines.append(["kernel tables made for all of these", *(str(row["tables"]) for row in rows)])
-    for title in titles[:-1]:
+    for title in titles[1:-1]:
         lines.append([f"{title}: error", *(share(row["answers"].get(title)) for row in rows)])
     return table(heads, lines)
+
+
+def cost(row: dict[str, Any], title: str) -> str:
+    """Return the cost of an answer over the solution, and in seconds."""
+    answer = row["answers"].get(title)
+    if answer is None:
+        return ""
+    return f"{answer['seconds'] / row['solve_s']:.2g} ({answer['seconds']:.2g} s)"
 
 
 def share(answer: dict[str, float] | None) -> str:
@@ -213,28 +229,57 @@ def share(answer: dict[str, float] | None) -> str:
     return ", by depths ".join(texts)
 
 
+def measured_apart(program: str, *arguments: str, threads: int) -> list[dict[str, Any]]:
+    """Run a program of this folder with so many threads; return its lines of JSON."""
+    command = [sys.executable, str(Path(__file__).with_name(program)), *arguments]
+    environment = {**os.environ, "RAYON_NUM_THREADS": str(threads)}
+    done = subprocess.run(command, env=environment, check=True, stdout=subprocess.PIPE, text=True)
+    rows = [json.loads(line) for line in done.stdout.splitlines()]
+    for row in rows:
+        print(json.dumps(row), flush=True)
+    return rows
+
+
+def tabulate_tasks(rows: list[dict[str, Any]]) -> str:
+    """Return the table of the tasks."""
+    lines = [
+        [
+            row["title"],
+            "" if np.isnan(row["ratio"]) else f"{row['ratio']:.2g}",
+            f"{row['processor']:.2g} s",
+            f"{row['wall']:.2g} s",
+        ]
+        for row in rows
+    ]
+    return table(["task", "ratio", "processor time", "time, two threads"], lines)
+
+
 def main() -> None:
-    """Measure, and write the table."""
+    """Measure, and write the tables."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--cells", type=int, nargs="+", default=[64, 128])
-    parser.add_argument("--contacts", nargs="+", choices=CONTACTS, default=CONTACTS)
+    parser.add_argument("--threads", type=int, help="measure the contacts of so many threads here")
     parser.add_argument("--repeat", type=int, default=5)
-    parser.add_argument("--out", type=Path, help="file of JSON for what was measured")
-    parser.add_argument("--document", type=Path, help="page whose table is replaced")
+    parser.add_argument("--document", type=Path, help="page whose tables are replaced")
     options = parser.parse_args()
-    rows = []
-    with warnings.catch_warnings():
+    if options.threads is not None:
         warnings.simplefilter("ignore")
-        for kind in options.contacts:
-            for cells in options.cells:
-                rows.append(measure(kind, cells, options.repeat))
-                print(json.dumps(rows[-1]), flush=True)
-    text = tabulate(rows)
-    print(text)
-    if options.out:
-        options.out.write_text(json.dumps(rows, indent=1))
-    if options.document:
-        write_between_marks(options.document, "answers", text)
+        is_first = options.threads == 1
+        for kind, cells in CONTACTS[options.threads]:
+            row = measure(kind, cells, options.repeat, errors=is_first)
+            print(json.dumps(row), flush=True)
+        for kind, cells in ONCE if is_first else []:
+            print(json.dumps(measure(kind, cells, 1, errors=False)), flush=True)
+        return
+    repeat = ("--repeat", str(options.repeat))
+    pages = {}
+    for threads, name in ((1, "answers"), (2, "answers, two threads")):
+        asked = ("--threads", str(threads), *repeat)
+        pages[name] = tabulate(measured_apart("answers.py", *asked, threads=threads))
+    pages["tasks"] = tabulate_tasks(measured_apart("answer_tasks.py", threads=2))
+    for name, text in pages.items():
+        print(text)
+        if options.document:
+            write_between_marks(options.document, name, text)
 
 
 if __name__ == "__main__":
