@@ -118,17 +118,32 @@ class Damage(Saveable, Labelled, Figured):
         parts, _ = np.histogram(amplitude, edges, weights=d.part.values)
         return edges, parts / max(float(d.part.sum()), 1e-300)
 
+    @property
+    def worst_text(self) -> str:
+        """The largest damage with its error; with an upper bound where the error exceeds it."""
+        if self.error > self.worst > 0.0:
+            return f"{_core.rough(self.worst)}, at most {_core.rough(self.worst + self.error)}"
+        return _core.with_error(self.worst, self.error)
+
+    @property
+    def _repeats_text(self) -> str:
+        """The passes of the history, with the fewest where the error exceeds the damage."""
+        passes = f"{_core.rough(self.repeats)} passes"
+        if self.error > self.worst > 0.0:
+            return f"{passes}, at least {_core.rough(1.0 / (self.worst + self.error))},"
+        return passes
+
     def summary(self) -> str:
         """Describe the damage: how much, where, the passes to a crack, notes."""
         x, y, z = self.place
-        worst = _core.with_error(self.worst, self.error)
+        worst = self.worst_text
         if self.worst == 0.0:
             lines = ["no damage"]
         else:
             lines = [
                 f"damage {worst} in one pass of the history, at x = {um(x)}, y = {um(y)}, "
                 f"z = {um(z)}",
-                f"{_core.rough(self.repeats)} passes until a crack has started",
+                f"{self._repeats_text} until a crack has started",
             ]
         parts = [
             f"{name} {_core.rough(100.0 * error / self.worst)} %"

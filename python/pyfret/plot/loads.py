@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pyfret._core import with_error
 from pyfret._util.numbers import in_letters, in_powers
 from pyfret._util.theme import DANGER, STICK, colour_map
 from pyfret.history.channels import channel_unit
@@ -132,11 +131,10 @@ def damage_map(damage: Damage, *, width: Width | None = None, ax: Axes | None = 
         drawn = ax.contourf(places, depths, shown, levels=12, cmap=colour_map("sequential"))
         add_colour_bar(ax, drawn, r"$\log_{10}$ damage of one pass")
         x, y, z = damage.place
-        worst = with_error(damage.worst, damage.error)
         mark(
             ax,
             (1e6 * (x if along == "x" else y), 1e6 * z),
-            f"worst point: {in_letters(in_powers(worst))}",
+            f"worst point: {in_letters(in_powers(damage.worst_text))}",
         )
     rows = np.flatnonzero(~np.ma.getmaskarray(shown).all(axis=1))
     deepest = depths[min(rows[-1] + 2, depths.size - 1)] if rows.size else depths[-1]

@@ -110,7 +110,7 @@ def third_body(
     ax.set_xlabel(f"${along}$ [mm]")
     ax.set_ylabel("depth [µm]")
     cycles = f"{float(result.dataset.block_cycles[block]):,.0f} cycles".replace(",", " ")
-    ax.legend(title=cycles, fontsize="small")
+    ax.legend(title=cycles, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderpad=0.1)
     return ax
 
 
