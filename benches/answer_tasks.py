@@ -1,6 +1,7 @@
 """What tasks of many answers cost: error bars, a comparison, a study, the page.
 
-Processor times and times of one process, medians of several. :mod:`answers` writes the table. ::
+Processor times and times of one process; medians of several runs of the short tasks.
+:mod:`answers` writes the table. ::
 
     python benches/answer_tasks.py
 """
@@ -76,7 +77,7 @@ def of_error_bars(repeat: int) -> list[tuple[str, Cost, float]]:
     return rows
 
 
-def of_comparison(repeat: int) -> list[tuple[str, Cost, float]]:
+def of_comparison(_: int) -> list[tuple[str, Cost, float]]:
     """Measure the comparison of four coatings with all questions, over its solutions alone."""
     bare = contact("bare", FEW)
     thickness = 0.1 * fret.reference.hertz(R=R, bodies=(STEEL, TITANIUM), W=W).a
@@ -87,18 +88,18 @@ def of_comparison(repeat: int) -> list[tuple[str, Cost, float]]:
         for name, E in COATINGS.items()
     }
     scenes = [bare.replace(body2=body) for body in bodies.values()]
-    alone = measure(lambda: [solve(scene, save="all") for scene in scenes], repeat)
+    alone = measure(lambda: [solve(scene, save="all") for scene in scenes], 1)
 
     def compare() -> None:
         executor = ThreadPoolExecutor(1)
         fret.study.compare(bodies, bare, bare.path, executor=executor, progress=False)
 
-    cost = measure(compare, repeat)
+    cost = measure(compare, 1)
     title = f"`compare` of four coatings, {FEW} cells, over their solutions"
     return [(title, cost, cost.processor / alone.processor)]
 
 
-def of_study(repeat: int) -> list[tuple[str, Cost, float]]:
+def of_study(_: int) -> list[tuple[str, Cost, float]]:
     """Measure a study of 60 points with largest stresses, over its solutions alone."""
     scene = contact("bare", FEW)
     scenes = [
@@ -116,7 +117,7 @@ def of_study(repeat: int) -> list[tuple[str, Cost, float]]:
             progress=False,
         )
 
-    cost = measure(study, repeat)
+    cost = measure(study, 1)
     title = f"study of 60 points with {', '.join(STRESSES)}, {FEW} cells, over its solutions"
     return [(title, cost, cost.processor / alone.processor)]
 
