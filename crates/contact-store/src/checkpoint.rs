@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 use super::folder::Folder;
 
 /// The first bytes of a state; the number is the version of the layout.
-const MAGIC: &[u8] = b"fret checkpoint 6\n";
+const MAGIC: &[u8] = b"fret checkpoint 7\n";
 pub(super) const FOLDER: &str = "checkpoint";
 /// Names in that folder.
 pub(super) const FILES: [&str; 3] = ["increments", "state.0", "state.1"];

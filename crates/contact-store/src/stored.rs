@@ -5,14 +5,14 @@ use std::io::{self, BufReader, Read, Write};
 use std::sync::Arc;
 
 use contact_core::Error;
-use flate2::read::MultiGzDecoder;
+use flate2::read::{MultiGzDecoder, ZlibDecoder};
 use rayon::prelude::*;
 use serde_json::Value;
 use zarrs::array::{Array, ArrayError, ArraySubset, ElementOwned};
 
 use super::catalogue::Kind;
 use super::folder::Folder;
-use super::variable::open_array;
+use super::variable::{BOOLEAN, Compressor, open_array};
 
 /// Largest number of values in a chunk: a field of the largest grid.
 const MOST_VALUES: u64 = 1 << 28;
@@ -21,6 +21,9 @@ const MOST_VALUES: u64 = 1 << 28;
 pub(super) struct Stored<'a> {
     array: Array<Folder>,
     kind: Kind,
+    compressor: Compressor,
+    /// Whether flags are stored as booleans.
+    has_booleans: bool,
     /// Checksums of the chunks; a copy has none.
     checksums: Option<&'a [u32]>,
 }
@@ -37,12 +40,16 @@ impl<'a> Stored<'a> {
         let array = open_array(folder, name, zarray.clone())?;
         let kind = zarray["dtype"].as_str().and_then(Kind::from_dtype);
         let kind = kind.ok_or_else(|| failed("has numbers of an unknown type"))?;
+        let compressor = Compressor::from_zarray(zarray);
+        let compressor = compressor.ok_or_else(|| failed("has an unknown compressor"))?;
         if array.shape().is_empty() {
             return Err(failed("has no dimension"));
         }
         Ok(Self {
             array,
             kind,
+            compressor,
+            has_booleans: zarray["dtype"] == BOOLEAN,
             checksums,
         })
     }
@@ -93,8 +100,13 @@ impl<'a> Stored<'a> {
             counts: rows * row,
             crc: crc32fast::Hasher::new(),
         };
-        let mut unfolded = MultiGzDecoder::new(BufReader::new(file)).take(size + 1);
-        match io::copy(&mut unfolded, &mut sum) {
+        let file = BufReader::new(file);
+        let unfolded: Box<dyn Read> = match self.compressor {
+            Compressor::None => Box::new(file),
+            Compressor::Gzip => Box::new(MultiGzDecoder::new(file)),
+            Compressor::Zlib => Box::new(ZlibDecoder::new(file)),
+        };
+        match io::copy(&mut unfolded.take(size + 1), &mut sum) {
             Ok(n) if n == size => {}
             Ok(_) => return Err(damaged(&"it is of another length")),
             Err(e) => return Err(damaged(&e)),
@@ -114,7 +126,10 @@ impl<'a> Stored<'a> {
             Kind::Real => array.retrieve_array_subset(part),
             Kind::Count => read_as_f64::<i32>(array, part, f64::from),
             Kind::Code => read_as_f64::<i8>(array, part, f64::from),
-            Kind::Flag => read_as_f64::<bool>(array, part, |yes| f64::from(u8::from(yes))),
+            Kind::Flag if self.has_booleans => {
+                read_as_f64::<bool>(array, part, |yes| f64::from(u8::from(yes)))
+            }
+            Kind::Flag => read_as_f64::<u8>(array, part, f64::from),
         };
         f64s.map_err(|e| e.to_string())
     }

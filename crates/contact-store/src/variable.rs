@@ -10,7 +10,31 @@ use super::catalogue::Kind;
 use super::folder::Folder;
 
 /// Effort of the compressor, 1 to 9: the fields are full-precision numbers and hardly shrink more.
-const GZIP_LEVEL: u32 = 1;
+const LEVEL: u32 = 1;
+
+/// Data type of flags that xarray writes.
+pub(super) const BOOLEAN: &str = "|b1";
+
+/// Compressors of stores. This program writes zlib, which netCDF-C reads as well; xarray writes gzip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Compressor {
+    None,
+    Gzip,
+    Zlib,
+}
+
+impl Compressor {
+    /// Finds the compressor of a `.zarray`.
+    pub(super) fn from_zarray(zarray: &Value) -> Option<Self> {
+        let compressor = &zarray["compressor"];
+        match compressor["id"].as_str() {
+            _ if compressor.is_null() => Some(Self::None),
+            Some("gzip") => Some(Self::Gzip),
+            Some("zlib") => Some(Self::Zlib),
+            _ => None,
+        }
+    }
+}
 
 /// Name, dimensions and attributes of an array, and its present shape.
 pub(super) struct Variable {
@@ -32,12 +56,16 @@ impl Kind {
             Self::Real => "<f8",
             Self::Count => "<i4",
             Self::Code => "|i1",
-            Self::Flag => "|b1",
+            // netCDF-C has no booleans: an attribute marks them, as xarray writes it.
+            Self::Flag => "|u1",
         }
     }
 
     /// Finds the kind of a data type.
     pub(super) fn from_dtype(dtype: &str) -> Option<Self> {
+        if dtype == BOOLEAN {
+            return Some(Self::Flag);
+        }
         Self::ALL.into_iter().find(|kind| kind.dtype() == dtype)
     }
 
@@ -81,6 +109,9 @@ impl Variable {
         attributes.insert("_ARRAY_DIMENSIONS".into(), json!(dims));
         attributes.insert("units".into(), json!(units));
         attributes.insert("long_name".into(), json!(long_name));
+        if kind == Kind::Flag {
+            attributes.insert("dtype".into(), json!("bool"));
+        }
         Self {
             name,
             kind,
@@ -151,7 +182,7 @@ impl Variable {
             "shape": self.shape,
             "chunks": self.chunks,
             "dtype": self.kind.dtype(),
-            "compressor": { "id": "gzip", "level": GZIP_LEVEL },
+            "compressor": { "id": "zlib", "level": LEVEL },
             "fill_value": null,
             "order": "C",
             "filters": null,
@@ -182,7 +213,7 @@ impl Variable {
         let options = CodecOptions::default().with_store_empty_chunks(true);
         let counts = || values.iter().map(|v| *v as i32).collect::<Vec<_>>();
         let codes = || values.iter().map(|v| *v as i8).collect::<Vec<_>>();
-        let flags = || values.iter().map(|v| *v != 0.0).collect::<Vec<_>>();
+        let flags = || (values.iter().map(|v| u8::from(*v != 0.0))).collect::<Vec<_>>();
         match self.kind {
             Kind::Real => array.store_chunk_opt(chunk, &values, &options),
             Kind::Count => array.store_chunk_opt(chunk, counts(), &options),
@@ -213,11 +244,10 @@ impl Variable {
 /// Fails for a codec, a filter or a type of numbers that no store of this program has. A codec is a
 /// program that a file asks for, so others are rejected by name.
 fn check_encoding(zarray: &Value) -> Result<(), String> {
-    let compressor = &zarray["compressor"];
-    if !compressor.is_null() && compressor["id"] != "gzip" {
+    if Compressor::from_zarray(zarray).is_none() {
         return Err(format!(
-            "is compressed by {}: pyfret reads gzip alone",
-            compressor["id"]
+            "is compressed by {}: pyfret reads zlib and gzip",
+            zarray["compressor"]["id"]
         ));
     }
     if zarray["filters"]

@@ -15,7 +15,7 @@ use super::folder::Folder;
 pub(super) const FILE: &str = "wear";
 const CHECKPOINT: &str = "checkpoint/wear";
 /// The first bytes of a checkpoint; the number is the version of the layout.
-const MAGIC: &[u8] = b"fret wear checkpoint 2\n";
+const MAGIC: &[u8] = b"fret wear checkpoint 3\n";
 
 /// The blocks that are kept.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]

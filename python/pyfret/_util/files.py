@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import errno
 import glob
-import gzip as packing
 import json
 import os
 import platform
@@ -29,7 +28,7 @@ from pyfret._util.stores import check_heads, check_store
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["checked", "deflate", "gzip", "is_copy", "opened", "read", "replacement", "write"]
+__all__ = ["checked", "deflate", "is_copy", "opened", "read", "replacement", "write"]
 
 #: Bytes of a NetCDF file beside its numbers, more than.
 MARGIN = 1 << 20
@@ -139,7 +138,8 @@ def write(
     dataset = dataset.assign_attrs({SUMS: sums_of(dataset, numbers=True)})
     with replacement(target) as unfinished:
         if target.suffix == ".zarr":
-            encoding = {name: gzip() for name in dataset.variables}
+            encoding = {name: deflate() for name in dataset.variables}
+            dataset = without_booleans(dataset)
             dataset.to_zarr(unfinished, zarr_format=2, consolidated=True, encoding=encoding)
         else:
             need_netcdf()
@@ -179,25 +179,18 @@ def shuffled(variable: xr.Variable) -> dict[str, Any]:
     return {"zlib": True, "complevel": 1, "shuffle": True, "chunksizes": chunks}
 
 
-def gzip() -> dict[str, Any]:
-    """Return the encoding of a copy: as in the stores of runs, so that one reader reads both.
-
-    The heads have no clock: the same numbers give the same bytes.
-    """
-    numcodecs = import_module("numcodecs")
-
-    class WithoutClock(numcodecs.GZip):  # type: ignore[misc, name-defined]
-        """GZip whose head has the time 0."""
-
-        def encode(self, buf: Any) -> bytes:
-            """Compress bytes; the head of the result has no time."""
-            return packing.compress(np.ascontiguousarray(buf).tobytes(), self.level, mtime=0)
-
-    return encoding_of(WithoutClock(level=1))
+def without_booleans(dataset: xr.Dataset) -> xr.Dataset:
+    """Return a dataset with booleans as 0 and 1, marked as xarray does: netCDF-C has none."""
+    packed = {
+        name: (variable.dims, variable.astype("u1").data, {**variable.attrs, "dtype": "bool"})
+        for name, variable in dataset.variables.items()
+        if variable.dtype == bool
+    }
+    return dataset.assign(packed)
 
 
 def deflate() -> dict[str, Any]:
-    """Return the encoding of a study: zlib, without a clock, which netCDF-C reads as well."""
+    """Return the encoding of copies and studies: zlib, which has no clock and netCDF-C reads."""
     return encoding_of(import_module("numcodecs").Zlib(level=1))
 
 

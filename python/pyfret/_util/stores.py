@@ -34,6 +34,8 @@ NAMES = frozenset(
         *(f"{kind}{bits}" for kind in ("int", "uint") for bits in (8, 16, 32, 64)),
     )
 )
+#: Attributes of an array or a group: they describe no array, whatever their names are.
+ATTRIBUTES = ".zattrs"
 #: Documents that hold metadata.
 DOCUMENTS = (".zarray", ".zattrs", ".zgroup", ".zmetadata", "zarr.json")
 #: Bytes that an array may have without a file of its own, and values of a chunk, a field of
@@ -119,6 +121,8 @@ def check_document(root: Path, file: Path, *, chunks: bool) -> None:
         raise Refused(f"the file {name} is damaged: {error}") from None
     if not isinstance(document, dict):
         raise Refused(f"the file {name} is damaged: it is no object")
+    if file.name == ATTRIBUTES:
+        return
     try:
         check_arrays(document, file.parent, root, chunks=chunks)
     except Refused as refused:
@@ -133,8 +137,8 @@ def check_arrays(document: Mapping[str, Any], where: Path, root: Path, *, chunks
         inner = inner.get("metadata", inner) if isinstance(inner, dict) else inner
         if isinstance(inner, dict):
             for name, of in inner.items():
-                if isinstance(of, dict):
-                    part = name.removesuffix("/.zarray").removesuffix("/.zattrs")
+                if isinstance(of, dict) and not name.endswith(f"/{ATTRIBUTES}"):
+                    part = name.removesuffix("/.zarray")
                     check_array(of, where / part.removeprefix("/"), root, chunks=chunks)
 
 

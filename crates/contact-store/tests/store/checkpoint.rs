@@ -240,7 +240,7 @@ fn a_checkpoint_of_another_version_or_scene_is_refused() {
         error.contains("is of version 9.9.9, this is version"),
         "{error}"
     );
-    let error = with(b"checkpoint 6", b"checkpoint 7");
+    let error = with(b"checkpoint 7", b"checkpoint 8");
     assert!(error.contains("is of another layout"), "{error}");
 
     fs::write(&state, &whole).unwrap();
