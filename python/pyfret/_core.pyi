@@ -3676,6 +3676,9 @@ def channel_crack(film_: Elastic, below: Elastic) -> float:
 def check_settings(settings: Settings) -> None:
     """Fails if a setting has no meaning."""
 
+def check_sides(shape: tuple[int, int], spacing: tuple[float, float]) -> None:
+    """Refuse a map of a file that is larger or smaller than any instrument measures."""
+
 def chosen_depths(
     body: Body, *, a: float, deepest: float, finer: float = 1.0
 ) -> tuple[list[float], list[int]]:
@@ -3848,6 +3851,14 @@ def find_material(name: str, materials: Sequence[Material]) -> Material | None:
     The case counts in a formula, and in a name that differs from one in its case alone.
     """
 
+def find_turns(record: NDArray[np.float64], part: float, outer: float) -> NDArray[np.int64]:
+    """
+    Indices of the points where a record goes back by more than a part of its range.
+
+    The first and the last one count if they are farther from the middle of the range than `outer`
+    of its half.
+    """
+
 def goodman_stick_ratio(*, beta: float, mu: float) -> float:
     """
     Stick over contact radius of an indentation with friction, after Goodman and Spence.
@@ -3967,6 +3978,14 @@ def main_sections(outline: Outline) -> list[tuple[float | None, float | None, fl
 
 def material_quantities() -> list[tuple[str, str, str]]:
     """Names, units and meanings of the numbers of materials."""
+
+def map_from_heights(
+    heights: Any,
+    *,
+    spacing: tuple[float, float],
+    missing: Literal["refuse", "crop", "fill"],
+) -> tuple[SurfaceMap, float]:
+    """Build the map of measured heights less their mean; return it and its S_q [m]."""
 
 def materials(file: str | PathLike[str] | None = None) -> list[Material]:
     """The materials that come with the package, or the materials of a file."""

@@ -20,7 +20,6 @@ from pyfret.export.meshes import read_mesh
 from pyfret.fit.recorders import kind_of_recording, read_columns
 from pyfret.fit.recordings import Recording
 from pyfret.opening import open as open_store
-from pyfret.scene.reading import check_sizes
 from pyfret.scene.standard_maps import is_sdf, is_x3p
 from pyfret.scene.surfaces import HEADS, beginning, is_text, read_map, read_surface
 
@@ -247,7 +246,7 @@ def _map(path: Path, start: bytes, kind: str = "array") -> FileInfo:
         "unit": "heights in m, out of the surface",
     }
     try:
-        check_sizes(values.shape, spacing)
+        _core.check_sides(values.shape, spacing)
     except StoreError as error:
         info.doubts.append(str(error))
     return info

@@ -66,6 +66,7 @@ mod shakedown;
 mod shear_bound;
 mod spectrum;
 mod tangent;
+mod turns;
 
 pub use assessment::{Assessment, LONGEST};
 pub use ball::{Ball, smallest_ball};
@@ -87,3 +88,4 @@ pub use point_result::PointResult;
 pub use range::{LifeRange, Range};
 pub use shakedown::{Yield, yielding};
 pub use spectrum::{CycleDistribution, SpectralMoments};
+pub use turns::find_turns;

@@ -102,7 +102,8 @@ mod _core {
     use crate::scene::{
         Body, Bond, Branch, Coating, Cone, CrownedRoller, Cylinder, Elastic, Ellipsoid, Flat,
         FlatPunch, Friction, Grid, History, LoadPath, PerRange, Plastic, Profile, Ridges, Ring,
-        Rough, Scene, Spacing, Sphere, Sum, SurfaceMap, Waviness, Wedge, check_settings, graded,
+        Rough, Scene, Spacing, Sphere, Sum, SurfaceMap, Waviness, Wedge, check_settings,
+        check_sides, graded, map_from_heights,
     };
 
     #[pymodule_export]
@@ -110,8 +111,8 @@ mod _core {
     #[pymodule_export]
     use crate::fatigue::{
         Assessment, Criterion, Material, criteria, criterion_on, damage_of_values, damage_on,
-        dang_van_path, find_material, known_as, material_quantities, materials, nearest_materials,
-        spectral_cycles, yielding_on,
+        dang_van_path, find_material, find_turns, known_as, material_quantities, materials,
+        nearest_materials, spectral_cycles, yielding_on,
     };
     #[pymodule_export]
     use crate::fracture::{

@@ -60,11 +60,14 @@ class RecordColumns(ABC):
         Of each column; an unknown unit matters for the columns that are used.
     notes : list of str
         What was assumed or computed while the columns were read.
+    has_holes : bool
+        Whether the columns that were read last have missing values.
     """
 
     def __init__(self, place: str, names: tuple[str, ...], units: tuple[str, ...]) -> None:
         self.place, self.names, self.units = place, names, units
         self.notes: list[str] = []
+        self.has_holes = False
 
     @abstractmethod
     def raw(self, indices: tuple[int, ...]) -> list[NDArray[np.float64]]:
@@ -79,14 +82,23 @@ class RecordColumns(ABC):
                 raise ValueError(
                     f"{self.place}: {self.names[index]}: unit {unit!r}: must be one of {kind_units}"
                 )
+        columns = self.scaled(indices, [size_of(self.units[index]) for index in indices])
+        self.has_holes = False
+        for values in columns:
+            # A sum is finite where all numbers are.
+            if np.isfinite(values.sum()):
+                continue
+            if np.isinf(values).any():
+                raise ValueError(f"{self.place}: has numbers that are not finite")
+            self.has_holes = True
+        return columns
+
+    def scaled(self, indices: tuple[int, ...], factors: list[float]) -> list[NDArray[np.float64]]:
+        """Read columns times a factor each."""
         columns = self.raw(indices)
-        for values, index in zip(columns, indices, strict=True):
-            factor = size_of(self.units[index])
+        for values, factor in zip(columns, factors, strict=True):
             if factor != 1.0:
                 values *= factor
-            # A sum is finite where all numbers are.
-            if not np.isfinite(values.sum()) and np.isinf(values).any():
-                raise ValueError(f"{self.place}: has numbers that are not finite")
         return columns
 
     def column(self, kind: str, names: tuple[str, ...], given: str | None) -> int:

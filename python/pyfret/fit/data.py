@@ -206,12 +206,11 @@ def _separate_loops(
     order = slice(0, shift.size) if closed else slice(turns[0], turns[-1] + 1)
     # Branches fall and rise in turn; the point of a turn belongs to the branch after it.
     falls = bool(shift[turns[1]] < shift[turns[0]])
-    turned = np.zeros(turns[-1] - turns[0] + 1, dtype=np.int8)
-    turned[np.asarray(turns[1:-1], dtype=np.int64) - turns[0]] = 1
-    cycle = np.cumsum(turned, dtype=np.int64)
-    cycle >>= 1
-    # The sum may run over: its last bit stays right.
-    down = (np.cumsum(turned, out=turned) & 1) != int(falls)
+    branches = np.arange(len(turns) - 1)
+    lengths = np.diff(turns)
+    lengths[-1] += 1
+    cycle = np.repeat(branches >> 1, lengths)
+    down = np.repeat((branches & 1 == 1) != falls, lengths)
     if closed:
         before, after = turns[0], shift.size - turns[1] - 1
         down = np.pad(down, (before, after), constant_values=not falls)
@@ -426,8 +425,7 @@ def read_loops(
     shift = table.column("length", ("delta", "d_", "weg", "x", "shift", "disp"), delta)
     force = table.column("force", ("t", "q", "kraft", "f", "force"), T)
     x, y = read_pair(table, shift, force)
-    # A sum is a number where all terms are.
-    if np.isnan(x.sum() + y.sum()):
+    if table.has_holes:
         whole = ~(np.isnan(x) | np.isnan(y))
         x, y = x[whole], y[whole]
     try:

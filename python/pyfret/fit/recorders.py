@@ -132,7 +132,7 @@ def channels_of_tdms(path: Path) -> Iterator[Channel]:
             _tdms_reader(path, group, name),
             _even_clock(clock, size),
             clock,
-            is_fresh=True,
+            _tdms_pieces(path, group, name),
         )
 
 
@@ -144,6 +144,18 @@ def _tdms_reader(path: Path, group: str, name: str) -> Callable[[], Any]:
         nptdms = needed("nptdms", "rigs")
         with nptdms.TdmsFile.open(path) as file:
             return file[group][name].read_data()
+
+    return read
+
+
+def _tdms_pieces(path: Path, group: str, name: str) -> Callable[[], Iterator[Any]]:
+    """Return a function that iterates over the scaled samples of a channel, segment by segment."""
+
+    def read() -> Iterator[Any]:
+        nptdms = needed("nptdms", "rigs")
+        with nptdms.TdmsFile.open(path) as file:
+            for chunk in file[group][name].data_chunks():
+                yield chunk[:]
 
     return read
 

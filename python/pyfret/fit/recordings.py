@@ -18,7 +18,7 @@ import numpy as np
 from pyfret.fit.columns import RecordColumns, kind_of, split_unit
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from numpy.typing import NDArray
 
@@ -43,8 +43,8 @@ class Channel:
     clock: Callable[[], NDArray[np.float64]] | None = None
     #: Begin, interval of an even clock [s].
     even: tuple[float, float] | None = None
-    #: Whether each reading gives an array of its own.
-    is_fresh: bool = False
+    #: Reads the samples in pieces, as the file has them; None: at once.
+    pieces: Callable[[], Iterable[NDArray[np.generic]]] | None = None
 
 
 class Recording(RecordColumns):
@@ -84,13 +84,36 @@ class Recording(RecordColumns):
         columns = []
         for channel in chosen:
             samples = channel.read()
-            if len(samples) != channel.size:
-                raise ValueError(
-                    f"{self.place}: {channel.name}: {len(samples)} samples of {channel.size}: the "
-                    "file is not whole"
-                )
-            columns.append(samples.astype(float, copy=not channel.is_fresh))
+            self.must_be_whole(channel, len(samples))
+            columns.append(samples.astype(float))
         return columns
+
+    def scaled(self, indices: tuple[int, ...], factors: list[float]) -> list[NDArray[np.float64]]:
+        """Read channels times a factor each, pieces in turn if the file has them."""
+        chosen = [self.channels[index] for index in indices]
+        readers = [channel.pieces for channel in chosen if channel.pieces is not None]
+        if len(readers) < len(chosen) or not self.is_one_clock(chosen):
+            return super().scaled(indices, factors)
+        columns = []
+        for channel, factor, read_pieces in zip(chosen, factors, readers, strict=True):
+            values = np.empty(channel.size)
+            count = 0
+            for piece in read_pieces():
+                end = count + len(piece)
+                if end <= channel.size:
+                    np.multiply(piece, factor, out=values[count:end])
+                count = end
+            self.must_be_whole(channel, count)
+            columns.append(values)
+        return columns
+
+    def must_be_whole(self, channel: Channel, count: int) -> None:
+        """Refuse a channel with more or fewer samples than the file states."""
+        if count != channel.size:
+            raise ValueError(
+                f"{self.place}: {channel.name}: {count} samples of {channel.size}: the file is not "
+                "whole"
+            )
 
     def is_one_clock(self, channels: Sequence[Channel]) -> bool:
         """Check that channels have samples at the same instants."""

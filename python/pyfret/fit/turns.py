@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pyfret import _core
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -18,10 +20,6 @@ TURN = 0.3
 BESIDE, MOST_BESIDE, OF_BRANCH = 4, 12, 0.1
 #: Part of the direction from the outermost point to a turn that is its error.
 OF_WAY = 0.25
-#: Points of a block, whose least and largest shift are compared at once.
-BLOCK = 32
-#: Numbers on a point of each side where its parabola is looked at, and turns at a time.
-STEPS, AT_ONCE = 401, 256
 #: Part of half of the range beyond which the first or the last point counts as a turn.
 OUTER = 0.8
 
@@ -30,59 +28,9 @@ def find_turns(delta: NDArray[np.float64]) -> list[int]:
     """Return the points where a shift turns by more than a part of its range, :data:`TURN`.
 
     The first point is a turn if the shift began at one of its ends, and the last one likewise.
-    Blocks of points without a turn are passed over by their least and largest shift.
     """
-    turns: list[int] = []
-    if not delta.size:
-        return turns
-    begins = np.arange(0, delta.size, BLOCK)
-    lows, highs = np.minimum.reduceat(delta, begins), np.maximum.reduceat(delta, begins)
-    low, high = float(lows.min()), float(highs.max())
-    least = TURN * (high - low)
-    if least == 0.0:
-        return turns
-
-    def is_outer(point: int) -> bool:
-        """Return whether a point is near one of the ends of the shift."""
-        return abs(float(delta[point]) - 0.5 * (high + low)) > 0.5 * OUTER * (high - low)
-
-    # The outermost shift since the last turn, its point or its block, and the sign of the way.
-    outermost, point, block, direction = float(delta[0]), 0, -1, 0
-    for n, (bottom, top) in enumerate(zip(lows.tolist(), highs.tolist(), strict=True)):
-        if direction > 0:
-            if (top if top > outermost else outermost) - bottom <= least:
-                if top >= outermost:
-                    outermost, block = top, n
-                continue
-        elif direction < 0 and top - (bottom if bottom < outermost else outermost) <= least:
-            if bottom <= outermost:
-                outermost, block = bottom, n
-            continue
-        if block >= 0:
-            point, block = last_equal(delta, block, outermost), -1
-        for index, value in enumerate(delta[n * BLOCK : (n + 1) * BLOCK].tolist(), n * BLOCK):
-            ahead = value - outermost
-            if direction == 0:
-                if abs(ahead) > least:
-                    if is_outer(point):
-                        turns.append(point)
-                    direction, outermost, point = (1 if ahead > 0.0 else -1), value, index
-            elif direction * ahead >= 0:
-                outermost, point = value, index
-            elif -direction * ahead > least:
-                turns.append(point)
-                direction, outermost, point = -direction, value, index
-    if block >= 0:
-        point = last_equal(delta, block, outermost)
-    if is_outer(point):
-        turns.append(point)
+    turns: list[int] = _core.find_turns(np.asarray(delta, dtype=float), TURN, OUTER).tolist()
     return turns
-
-
-def last_equal(delta: NDArray[np.float64], block: int, value: float) -> int:
-    """Return the last point of a block with a value."""
-    values: list[float] = delta[block * BLOCK : (block + 1) * BLOCK].tolist()
-    return block * BLOCK + len(values) - 1 - values[::-1].index(value)
 
 
 def remove_drift(
@@ -123,9 +71,8 @@ def turns_between(delta: NDArray[np.float64], turns: list[int]) -> NDArray[np.fl
     refined = np.empty((at.size, 3))
     for count in range(BESIDE, MOST_BESIDE + 1):
         chosen = np.flatnonzero(many == count)
-        for first in range(0, chosen.size, AT_ONCE):
-            rows = chosen[first : first + AT_ONCE]
-            refined[rows] = _refine(delta, at[rows], count)
+        if chosen.size:
+            refined[chosen] = _refine(delta, at[chosen], count)
     chosen_turns: NDArray[np.float64] = refined[many > 0]
     return chosen_turns
 
@@ -134,20 +81,40 @@ def _refine(delta: NDArray[np.float64], at: NDArray[np.int64], many: int) -> NDA
     """Refine turns by parabolas through `many` points on each side: index, shift and its error."""
     shift = delta[at]
     sign = np.where(shift > delta[at - many], 1.0, -1.0)
-    s = np.linspace(-1.0, 1.0, STEPS)
-    heights, noises = [], []
+    parabolas, noises = [], []
     for side in (np.arange(-many, 0), np.arange(1, many + 1)):
-        values = sign[:, None] * delta[at[:, None] + side]
+        values = sign * delta[at + side[:, None]]
         powers = np.vander(side, 3)
-        parabolas = values @ np.linalg.pinv(powers).T
-        residuals = values - parabolas @ powers.T
-        heights.append(parabolas @ np.vander(s, 3).T)
-        noises.append(np.sqrt((residuals**2).sum(axis=1) / (many - 3)))
-    lower = np.minimum(*heights)
-    top = lower.argmax(axis=1)
+        # By `einsum`: the threads of a matrix product cost more time than its numbers.
+        parabola = np.einsum("kj,ji->ki", np.linalg.pinv(powers), values)
+        residuals = values - np.einsum("jk,ki->ji", powers, parabola)
+        parabolas.append(parabola)
+        noises.append(np.sqrt(np.einsum("ji,ji->i", residuals, residuals) / (many - 3)))
+    position, lower = _highest(*parabolas)
     # Not below the outermost point, unless that stands out by its noise.
     noise = np.maximum(*noises)
-    turn = np.maximum(lower[np.arange(at.size), top], sign * shift - 2.0 * noise)
+    turn = np.maximum(lower, sign * shift - 2.0 * noise)
     error = OF_WAY * np.abs(turn - sign * shift) + noise
-    refined: NDArray[np.float64] = np.stack([at + s[top], sign * turn, error], axis=1)
+    refined: NDArray[np.float64] = np.stack([at + position, sign * turn, error], axis=1)
     return refined
+
+
+def _highest(
+    first: NDArray[np.float64], second: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return where in [-1, 1] the lower of two parabolas is largest, and its value there.
+
+    That is at an end, at the vertex of one of them, or where they meet. A parabola has the rows
+    a, b, c of a s^2 + b s + c.
+    """
+    with np.errstate(all="ignore"):
+        a, b, c = first - second
+        q = -0.5 * (b + np.copysign(np.sqrt(b * b - 4.0 * a * c), b))
+        vertices = [-0.5 * parabola[1] / parabola[0] for parabola in (first, second)]
+        points = np.stack([*vertices, q / a, c / q, np.full(a.shape, -1.0), np.ones(a.shape)])
+    # NaN, where they do not meet, gives an end.
+    s = np.fmax(np.fmin(points, 1.0), -1.0)
+    lower = np.minimum(*((f[0] * s + f[1]) * s + f[2] for f in (first, second)))
+    best = lower.argmax(axis=0)
+    turns = np.arange(best.size)
+    return s[best, turns], lower[best, turns]

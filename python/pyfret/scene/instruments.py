@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pyfret._core import StoreError, unit_of
+from pyfret._core import StoreError, check_sides, unit_of
 from pyfret._util.numbers import length
-from pyfret.scene.reading import Reading, check_sizes, remove_mean
+from pyfret.scene.reading import Reading
 from pyfret.scene.standard_maps import profile
 
 if TYPE_CHECKING:
@@ -83,8 +83,6 @@ def read_by_surface_topography(
     reading.heights = with_holes(heights)
     if scale != 1.0:
         reading.heights *= scale
-    if detrend == "center":
-        remove_mean(reading.heights)
     reading.spacing = (float(x), float(y))
     if spacing is not None and reader.channels[index].physical_sizes is not None:
         replace_spacing(reading, spacing)
@@ -104,7 +102,7 @@ def with_holes(heights: Any) -> Any:
 def replace_spacing(reading: Reading, spacing: Length | tuple[Length, Length]) -> None:
     """Take the pitch of the user where no instrument has the file's; refuse it elsewhere."""
     try:
-        check_sizes(reading.heights.shape, reading.spacing)
+        check_sides(reading.heights.shape, reading.spacing)
     except StoreError:
         x, y = np.broadcast_to(np.asarray(spacing, dtype=float), 2).tolist()
         reading.notes.append(f"the file's pitch of {length(reading.spacing[0])} is not used")

@@ -6,26 +6,21 @@ import sys
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from pyfret._core import StoreError, shown
 from pyfret._util.numbers import length
 
 if TYPE_CHECKING:
     from os import PathLike
 
+    import numpy as np
     from numpy.typing import NDArray
 
-__all__ = ["Reading", "check_heights", "check_sizes", "remove_mean", "summarize"]
+__all__ = ["Reading", "check_heights", "check_range", "summarize"]
 
-#: Smallest and largest side of a map of an instrument [m]: a scan of 0.1 um, a stage of 0.5 m.
-SHORTEST, LONGEST = 1e-7, 0.5
 #: Largest range of heights of an instrument [m]: steps of stages and of stitched maps.
 HIGHEST = 0.5
 #: Largest range of heights without a unit over the longer side of a map.
 STEEPEST = 100.0
-#: Lines whose mean is taken at a time: little memory.
-LINES = 256
 
 
 @dataclass
@@ -47,21 +42,6 @@ class Reading:
     notes: list[str] = field(default_factory=list)
 
 
-def check_sizes(shape: tuple[int, ...], spacing: tuple[float, float]) -> None:
-    """Refuse a map larger or smaller than any instrument measures: its unit is another one."""
-    for axis, count, step in zip("xy", shape, spacing, strict=True):
-        if count < 2:
-            continue
-        size = count * step
-        if not SHORTEST <= size <= LONGEST:
-            raise StoreError(
-                f"the map is {length(size)} long in {axis}, {count} points of "
-                f"{length(step)}: must be {length(SHORTEST)} to {length(LONGEST)}. "
-                "The unit of its lengths is likely another one. If you know the pitch, give "
-                "spacing=2e-6, in m"
-            )
-
-
 def check_heights(
     peak_to_valley: float, shape: tuple[int, ...], spacing: tuple[float, float]
 ) -> None:
@@ -74,21 +54,14 @@ def check_heights(
         )
 
 
-def remove_mean(heights: NDArray[np.float64]) -> None:
-    """Subtract the mean of the measured points, in place."""
-    # Along the memory, whichever axis comes first in it.
-    lines = heights if heights.flags.c_contiguous else heights.T
-    total = float(lines.sum())
-    count = heights.size
-    if np.isnan(total):
-        total, count = 0.0, 0
-        for first in range(0, len(lines), LINES):
-            rows = lines[first : first + LINES]
-            measured = ~np.isnan(rows)
-            total += float(np.sum(rows, where=measured))
-            count += int(measured.sum())
-    if count:
-        lines -= total / count
+def check_range(rms: float) -> None:
+    """Refuse heights that no instrument measures; half of a range is the largest S_q."""
+    if rms > 0.5 * HIGHEST:
+        raise StoreError(
+            f"S_q of the heights is {length(rms)}: must be {length(0.5 * HIGHEST)} at most. The "
+            "unit of the heights is likely another one: give the numbers as an array, "
+            "SurfaceMap(1e-6 * heights, spacing=2e-6)"
+        )
 
 
 def summarize(

@@ -40,8 +40,8 @@ SDF = re.compile(rb"(?:\xef\xbb\xbf)?[aAbB](?:ISO|BCR)-\d\.\d")
 #: scales and types [bytes].
 BEFORE_COUNTS, AFTER_COUNTS = 42, 35
 COUNTS = {b"ISO-1.0": "<HH", b"BCR-1.0": "<HH", b"ISO-2.0": "<II"}
-#: Points of a piece of a large binary file: little memory beside the map.
-PIECE = 1 << 22
+#: Points of a piece of a large binary file, which stays in the cache of a processor.
+PIECE = 1 << 17
 #: Whether this Python has x3pio and sdfio.
 HAS_LIBRARIES = sys.version_info[:2] >= (3, 11)
 #: Revisions that SurfaceTopography reads as well.

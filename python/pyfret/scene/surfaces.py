@@ -11,11 +11,11 @@ from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
-from pyfret._core import StoreError, SurfaceMap, read_bytes, shown
+from pyfret._core import StoreError, SurfaceMap, check_sides, map_from_heights, read_bytes, shown
 from pyfret._util.scene_warnings import warn
 from pyfret.quantities import Length, quantities
 from pyfret.scene.instruments import read_by_surface_topography
-from pyfret.scene.reading import Reading, check_heights, check_sizes, remove_mean, summarize
+from pyfret.scene.reading import Reading, check_heights, check_range, summarize
 from pyfret.scene.standard_maps import (
     HAS_LIBRARIES,
     is_sdf,
@@ -123,7 +123,7 @@ def read_surface(
             raise StoreError("is empty")
         trend = "center" if detrend is None else TRENDS[detrend]
         reading = read_map(source, start, spacing, unit, channel, trend)
-        check_sizes(reading.heights.shape, reading.spacing)
+        check_sides(reading.heights.shape, reading.spacing)
     except StoreError as error:
         text = str(error)
         message = text if text.startswith(fspath(path)) else f"{fspath(path)}: {text}"
@@ -131,12 +131,13 @@ def read_surface(
     for note in reading.notes:
         warn(f"{fspath(path)}: {note}")
     try:
-        surface = SurfaceMap(reading.heights, spacing=reading.spacing, missing=missing)
-    except ValueError as error:
+        surface, rms = map_from_heights(reading.heights, spacing=reading.spacing, missing=missing)
+        check_range(rms)
+    except (StoreError, ValueError) as error:
         raise StoreError(f"{fspath(path)}: {error}") from error
     # The values of a surface are copied when they are asked for: 134 MB of 4096 x 4096 points.
     shape = surface.values.shape if missing == "crop" else reading.heights.shape
-    summarize(path, shape, reading.spacing, surface.rms, reading.kind)
+    summarize(path, shape, reading.spacing, rms, reading.kind)
     return surface
 
 
@@ -156,9 +157,8 @@ def read_map(
         return read_by_surface_topography(path, spacing, unit, channel, detrend)
     read = read_sdf if is_sdf(start) else read_x3p
     reading = read(path, unit, spacing, channel)
-    if detrend == "center":
-        remove_mean(reading.heights)
-    else:
+    # The mean is subtracted as the map is built.
+    if detrend != "center":
         subtract_trend(reading, detrend)
     return reading
 
@@ -188,7 +188,6 @@ def read_plain(
         path, spacing=spacing, unit=unit, channel=column, missing=missing
     )
     shape = surface.values.shape
-    check_sizes(shape, surface.spacing)
     if unit is None:
         try:
             check_heights(surface.peak_to_valley, shape, surface.spacing)

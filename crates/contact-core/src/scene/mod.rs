@@ -6,6 +6,7 @@
 mod body;
 mod bulk_stress;
 mod case;
+mod centred;
 mod compliant_bonds;
 mod doubts;
 mod files;
@@ -58,7 +59,7 @@ pub use settings::{
 };
 pub use shape::{Rough, Shape};
 pub use stress_profile::Profile;
-pub use surface_map::SurfaceMap;
+pub use surface_map::{SurfaceMap, check_sides};
 pub use validity::Breadth;
 pub use yields::FirstYield;
 

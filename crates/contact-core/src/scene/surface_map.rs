@@ -3,13 +3,18 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use ndarray::Array2;
+use ndarray::{Array2, ArrayView2};
 
 use super::Grid;
+use super::centred::{Centred, centre};
 use super::files;
 use super::missing::{Missing, treat_holes};
 use super::number_files::{FileOfNumbers, Heights, read_heights};
+use crate::digits::short;
 use crate::error::Error;
+
+/// Smallest and largest side of a map of an instrument \[m\]: a scan of 0.1 um, a stage of 0.5 m.
+const SIDES: (f64, f64) = (1e-7, 0.5);
 
 /// Numbers on points of the contact plane; the middle of the map lies over the origin.
 #[derive(Clone, Debug)]
@@ -51,6 +56,7 @@ impl SurfaceMap {
             filled,
         };
         map.check("map").map_err(|e| failed(e.to_string()))?;
+        check_sides(map.values.dim(), spacing).map_err(failed)?;
         Ok(map)
     }
 
@@ -65,6 +71,33 @@ impl SurfaceMap {
         };
         map.check("map")?;
         Ok(map)
+    }
+
+    /// Builds a map of measured heights less their mean; returns its S_q as well.
+    pub fn from_heights(
+        heights: &ArrayView2<'_, f64>,
+        spacing: (f64, f64),
+        missing: Missing,
+    ) -> Result<(Self, f64), Error> {
+        let Centred { values, holes, rms } = centre(heights).map_err(|(i, j)| {
+            Error::invalid(
+                format!("map.z[{i}, {j}]"),
+                heights[(i, j)],
+                "a finite number",
+            )
+        })?;
+        if holes > 0 || values.is_empty() {
+            let map = Self::new(values, spacing, missing)?;
+            let rms = map.rms();
+            return Ok((map, rms));
+        }
+        let map = Self {
+            values: Arc::new(values),
+            spacing,
+            filled: 0,
+        };
+        map.check_spacing("map")?;
+        Ok((map, rms))
     }
 
     /// Root of the mean square about the mean over the points: S_q of heights, after ISO 25178-2.
@@ -107,6 +140,11 @@ impl SurfaceMap {
         if let Some(z) = self.values.fold(None, infinite) {
             return Err(Error::invalid(format!("{key}.z"), z, "finite numbers"));
         }
+        self.check_spacing(key)
+    }
+
+    /// Fails if a distance of the points is not a positive length.
+    fn check_spacing(&self, key: &str) -> Result<(), Error> {
         for d in [self.spacing.0, self.spacing.1] {
             if !(d > 0.0 && d.is_finite()) {
                 return Err(Error::invalid(
@@ -147,6 +185,25 @@ impl SurfaceMap {
             format!("at least as large as the grid{suggestion}"),
         ))
     }
+}
+
+/// Refuses a map of a file that is larger or smaller than any instrument measures; its unit is another one.
+pub fn check_sides(shape: (usize, usize), spacing: (f64, f64)) -> Result<(), String> {
+    for (axis, count, step) in [("x", shape.0, spacing.0), ("y", shape.1, spacing.1)] {
+        let side = count as f64 * step;
+        if count > 1 && !(SIDES.0..=SIDES.1).contains(&side) {
+            return Err(format!(
+                "the map is {} m long in {axis}, {count} points that are {} m apart: must be {:e} to {} m. \
+                 The unit of its lengths is likely another one. If you know the distance of the points, \
+                 give spacing = 2e-6, in m",
+                short(side),
+                short(step),
+                SIDES.0,
+                SIDES.1
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// Rounds a length down to six digits.

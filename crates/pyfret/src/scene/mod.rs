@@ -27,6 +27,6 @@ pub(crate) use profile::{Profile, graded};
 pub(crate) use settings::{Settings, check_settings};
 pub(crate) use shape::{
     Cone, CrownedRoller, Cylinder, Ellipsoid, Flat, FlatPunch, Ridges, Ring, Rough, Sphere, Sum,
-    SurfaceMap, Waviness, Wedge,
+    SurfaceMap, Waviness, Wedge, check_sides, map_from_heights,
 };
 pub(crate) use whole::Scene;

@@ -4,10 +4,11 @@ use std::ffi::CString;
 
 use contact_core::Error;
 use contact_core::scene as core;
+use numpy::PyReadonlyArray2;
 use pyo3::exceptions::{PyTypeError, PyUserWarning};
 
 use super::super::Pitch;
-use crate::error::{Answer, InvalidSceneError};
+use crate::error::{Answer, InvalidSceneError, StoreError};
 use crate::hints::Numbers;
 use crate::prelude::*;
 use crate::python::from_python;
@@ -223,6 +224,26 @@ attributes!(SurfaceMap, self:
     /// Largest less smallest number: S_z of heights [m].
     peak_to_valley: f64 = self.0.peak_to_valley();
 );
+
+/// Build the map of measured heights less their mean; return it and its S_q [m].
+#[pyfunction]
+#[pyo3(signature = (heights, *, spacing, missing: "Literal['refuse', 'crop', 'fill']") -> "tuple[SurfaceMap, float]")]
+pub(crate) fn map_from_heights(
+    heights: &Bound<'_, PyAny>,
+    spacing: (f64, f64),
+    missing: &str,
+) -> Answer<(SurfaceMap, f64)> {
+    let numbers: PyReadonlyArray2<'_, f64> = heights.extract()?;
+    let view = numbers.as_array();
+    let (map, rms) = core::SurfaceMap::from_heights(&view, spacing, word(missing)?)?;
+    Ok((warn_of_filled(heights.py(), map)?, rms))
+}
+
+/// Refuse a map of a file that is larger or smaller than any instrument measures.
+#[pyfunction]
+pub(crate) fn check_sides(shape: (usize, usize), spacing: (f64, f64)) -> Answer<()> {
+    core::check_sides(shape, spacing).map_err(|message| StoreError::new_err(message).into())
+}
 
 /// Wraps a map, with a warning if points were filled.
 fn warn_of_filled(py: Python<'_>, map: core::SurfaceMap) -> Answer<SurfaceMap> {

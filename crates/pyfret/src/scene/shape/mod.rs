@@ -10,7 +10,7 @@ mod sum;
 mod waviness;
 
 pub(crate) use edged::{Cone, Flat, FlatPunch, Wedge};
-pub(crate) use map::SurfaceMap;
+pub(crate) use map::{SurfaceMap, check_sides, map_from_heights};
 pub(crate) use ridges::{Ridges, Ring};
 pub(crate) use rough::Rough;
 pub(crate) use round::{CrownedRoller, Cylinder, Ellipsoid, Sphere};
