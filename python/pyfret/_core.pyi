@@ -3937,6 +3937,13 @@ def largest_of_samples(
     The value, its place along the line, depth, layer and error.
     """
 
+def limit_threads(count: int) -> None:
+    """
+    Limit the work that the calling thread asks for to a number of threads of its own.
+
+    Other threads of Python keep the threads of the process.
+    """
+
 def line_contact(
     *, R: Radius, bodies: tuple[Elastic | Body, Elastic | Body], W: LineForce
 ) -> LineContact:
@@ -4445,6 +4452,7 @@ __all__ = [
     "known_as",
     "labels",
     "largest_of_samples",
+    "limit_threads",
     "line_contact",
     "line_places",
     "line_through",

@@ -5,7 +5,11 @@
 //! all work is shared out to is one without a thread there: whoever handed it anything would wait
 //! forever. A copy gets a pool of its own. What cannot be helped is a copy made while another
 //! thread was at work, which has left its locks behind; it is refused at once.
+//!
+//! Runs at the same time in several threads of Python have pools of their own. In a common pool
+//! each waits for pieces of the others.
 
+use std::cell::RefCell;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
@@ -23,6 +27,28 @@ struct Home {
 static HOME: Mutex<Option<Home>> = Mutex::new(None);
 /// Calls at work; a copy finds what was at work when it was made.
 static AT_WORK: AtomicUsize = AtomicUsize::new(0);
+
+thread_local! {
+    /// Pool of the work that this thread calls for, and the process that made it.
+    static LIMITED: RefCell<Option<(u32, Arc<ThreadPool>)>> = const { RefCell::new(None) };
+}
+
+/// Most threads of a pool.
+const MOST_THREADS: usize = 1024;
+
+/// Limit the work that the calling thread asks for to a number of threads of its own.
+///
+/// Other threads of Python keep the threads of the process.
+#[pyfunction]
+pub(crate) fn limit_threads(count: usize) -> PyResult<()> {
+    if !(1..=MOST_THREADS).contains(&count) {
+        refuse!("count = {count}: must be 1 to {MOST_THREADS}");
+    }
+    let pool = ThreadPoolBuilder::new().num_threads(count).build();
+    let pool = pool.map_err(|e| PyRuntimeError::new_err(e.to_string()))?;
+    LIMITED.set(Some((std::process::id(), Arc::new(pool))));
+    Ok(())
+}
 
 /// A call at work.
 pub(crate) struct Running {
@@ -78,5 +104,11 @@ pub(crate) fn in_this_process() -> PyResult<Running> {
         std::mem::forget(before.pool);
     }
     AT_WORK.fetch_add(1, Ordering::Relaxed);
-    Ok(Running { pool })
+    let limited = LIMITED.with_borrow(|limited| match limited {
+        Some((made_by, pool)) if *made_by == process => Some(pool.clone()),
+        _ => None,
+    });
+    Ok(Running {
+        pool: limited.or(pool),
+    })
 }

@@ -81,6 +81,8 @@ mod _core {
         SlidingError, SolveError, StoreError,
     };
     #[pymodule_export]
+    use crate::forked::limit_threads;
+    #[pymodule_export]
     use crate::kernels::{
         Conversion, influence_coefficients, stress_at, stress_coefficients, surface_frf,
     };

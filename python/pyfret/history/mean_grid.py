@@ -52,6 +52,10 @@ class MeanGrid:
     inner: NDArray[np.int64]
     closed: NDArray[np.int64]
 
+    def shifted(self, branches: int) -> MeanGrid:
+        """Return the grid with a number of branches before it."""
+        return MeanGrid(self.outer + branches, self.inner + branches, self.closed + branches)
+
     @staticmethod
     def build(go: Callable[[float], int], top: float, mean: float) -> MeanGrid:
         """Lead a path through the loops, from the largest value of the outer loop to that again.

@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from pyfret._core import Scene
     from pyfret.history.ladder import Companions
     from pyfret.history.load_history import LoadHistory
-    from pyfret.history.marching import Marches
     from pyfret.run.run import Run
 
 __all__ = ["Stretch", "StretchCheck"]
@@ -63,24 +62,25 @@ class Stretch:
     energy: float
 
     @staticmethod
-    def march(
-        scene: Scene,
-        history: LoadHistory,
-        loops: CountedLoops,
-        companions: Companions,
-        marches: Marches,
-    ) -> Stretch:
-        """March a stretch of the block of a history, from its largest value."""
+    def plan(
+        scene: Scene, history: LoadHistory, loops: CountedLoops, companions: Companions
+    ) -> tuple[Scene, NDArray[np.float64]]:
+        """Return the scene of a stretch, from the largest value, and its counted channel."""
         channels = stretch_channels(history, loops, companions)
         # Back to where it began, so that its loops close.
         channels = {name: np.append(values, values[0]) for name, values in channels.items()}
-        values = channels[history.channel]
         path = press(scene, channels, np.zeros(1, dtype=np.int64))
         # The first pass settles the contact.
         columns = {name: np.concatenate([column, column]) for name, column in channels.items()}
         path = path.waypoints(increments="auto", **columns)
-        run = marches.run(scene.replace(path=path, save="branches"), "stretch")
-        before = len(path.branches) - values.size
+        return scene.replace(path=path, save="branches"), channels[history.channel]
+
+    @staticmethod
+    def from_run(
+        run: Run, values: NDArray[np.float64], history: LoadHistory, companions: Companions
+    ) -> Stretch:
+        """Read the loops of a stretch from its march, whose counted channel has these values."""
+        before = len(run.scene.path.branches) - values.size
         dissipated = run.branches().dissipated.values
         energy = float(dissipated[before + 1 :].sum())
         counted = CountedLoops.from_rows(count_signal(values, "repeat"), history.channel, "stretch")

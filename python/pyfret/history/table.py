@@ -27,6 +27,7 @@ from pyfret.history.loops import CountedLoops, distinct
 from pyfret.history.marching import Marches
 from pyfret.history.mean_grid import MEANS, SIDES, SIZES, grid_weights, memory_of_loops
 from pyfret.history.memory import amplitude_weights, state_weights
+from pyfret.history.parts import build_parts, join_ladders, join_runs
 from pyfret.history.scatter import record_scatter
 from pyfret.history.states import (
     LoopStates,
@@ -152,28 +153,31 @@ class HistoryTable:
         pressed = marches.run(scene.replace(path=path, save="branches"), "pressed")
         exact = keeps_memory(pressed, companions)
         settling = 0 if is_uncoupled(pressed) else SETTLING
+        if check is None:
+            check = not exact
+        beside: dict[str, Scene] = {}
+        if check:
+            beside["stretch"], values = Stretch.plan(scene, history, loops, companions)
         table, onset = None, None
         for count in (FEWEST, MOST):
             levels = table_levels(loops, count, onset)
-            with_means = not exact and not companions.turns and len(levels) > 1
-            ladder = Ladder.build(
-                scene, history, levels, companions, settling=settling, with_means=with_means
-            )
-            run = marches.run(
-                scene.replace(path=ladder.path, save="branches"), f"{len(levels)}_amplitudes"
-            )
+            parts = build_parts(scene, history, levels, companions, exact=exact, settling=settling)
+            paths = scenes_of(scene, parts)
+            runs = marches.run_all({**beside, **paths})
+            ladder = join_ladders(parts)
+            run = join_runs([runs[name] for name in parts])
             table = cls(scene, history, loops, companions, ladder, run)
             error = max(table.straight_error, table.interpolation_error)
             if len(levels) < count or error <= tolerance:
                 break
             onset = table.curve.onset
         assert table is not None
-        if not table.is_exact if check is None else check:
-            stretch = Stretch.march(scene, history, loops, companions, marches)
+        if check:
+            stretch = Stretch.from_run(runs["stretch"], values, history, companions)
             states = table.states_of_series(stretch.values, stretch.loops)
             table.check = StretchCheck(stretch, states, table.energy_of_loops(stretch.loops))
         if scene.grid.nx % 4 == 0 and scene.grid.nx >= LEAST_CELLS:
-            table.coarse_run = table.march_coarse(marches)
+            table.coarse_run = table.march_coarse(marches, parts)
         return table
 
     @property
@@ -181,7 +185,7 @@ class HistoryTable:
         """Whether the rule of memory holds: like bodies, constant W, channels in phase."""
         return keeps_memory(self.run, self.companions)
 
-    def march_coarse(self, marches: Marches) -> Run | None:
+    def march_coarse(self, marches: Marches, parts: dict[str, Ladder]) -> Run | None:
         """March the table on half of the cells along each side; None where they are too few."""
         grid = self.scene.grid
         ny = grid.ny if grid.plane_strain else grid.ny // 2
@@ -189,11 +193,13 @@ class HistoryTable:
         if not grid.plane_strain and grid.ny % 2:
             return None
         cells = grid.replace(nx=grid.nx // 2, ny=ny, dx=2.0 * grid.dx, dy=dy)
-        scene = self.scene.replace(path=self.ladder.path, save="branches", grid=cells)
+        coarse = self.scene.replace(grid=cells)
+        scenes = {f"half_of_the_cells_{k}": v for k, v in scenes_of(coarse, parts).items()}
         try:
-            return marches.run(scene, "half_of_the_cells")
+            runs = marches.run_all(scenes)
         except (InvalidSceneError, OffGridError, NoConvergenceError):
             return None
+        return join_runs(list(runs.values()))
 
     @property
     def _every_second(self) -> slice:
@@ -470,18 +476,28 @@ class HistoryTable:
     __repr__ = summary
 
 
+def scenes_of(scene: Scene, parts: dict[str, Ladder]) -> dict[str, Scene]:
+    """Return the scenes of the parts of a table, by their names."""
+    return {name: scene.replace(path=part.path, save="branches") for name, part in parts.items()}
+
+
 def is_uncoupled(run: Run) -> bool:
     """Return whether the pressure of a run does not depend on its shear."""
     return any(line.startswith(UNCOUPLED) for line in run.dataset.attrs["plan"])
 
 
 def keeps_memory(run: Run, companions: Companions) -> bool:
-    """Return whether the rule of memory holds on the contact of a run."""
+    """Return whether the rule of memory holds on the contact of a run.
+
+    Coefficients of friction that depend on the slip before break it, as bodies that yield do.
+    """
     scene = run.scene
     varies = "W" in companions.ratios and companions.ratios["W"][1:] != (0.0, 0.0)
     yields = scene.body1.yields or scene.body2.yields
     in_phase = not companions.turns and companions.residual < 1e-6
-    return is_uncoupled(run) and in_phase and not varies and not yields
+    friction = scene.friction
+    ages = any(law is not None for law in (friction.kinetic, friction.history, friction.law))
+    return is_uncoupled(run) and in_phase and not (varies or yields or ages)
 
 
 def table_levels(

@@ -19,6 +19,7 @@ from concurrent.futures import (
 from pathlib import Path
 from typing import Any
 
+from pyfret._util.processors import count_processors
 from pyfret.study.point import FAILED, Outcome, failure
 
 __all__ = ["Workers"]
@@ -53,13 +54,6 @@ def standard_streams() -> Iterator[None]:
                     setattr(sys, name, None)
 
 
-def processors() -> int:
-    """Count the processors that this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
-
-
 class Workers:
     """An executor, and the number of points that it takes at a time.
 
@@ -75,8 +69,8 @@ class Workers:
     def __init__(self, executor: Any, points: int) -> None:
         self.own: Callable[[], Executor] | None = None
         if executor is None or isinstance(executor, int):
-            count = max(min(executor or processors(), points), 1)
-            self.threads: int | None = max(processors() // count, 1)
+            count = max(min(executor or count_processors(), points), 1)
+            self.threads: int | None = max(count_processors() // count, 1)
             self.ahead = POINTS_PER_WORKER * count
             self.own = lambda: local_executor(count, self.threads or 1)
             self.executor = self.own()
@@ -87,8 +81,8 @@ class Workers:
             self.threads = max(threads_per_worker, default=1)
             self.ahead = POINTS_PER_WORKER * max(sum(threads_per_worker), 1)
         elif isinstance(executor, Executor):
-            count = int(getattr(executor, "_max_workers", None) or processors())
-            self.executor, self.threads = executor, max(processors() // count, 1)
+            count = int(getattr(executor, "_max_workers", None) or count_processors())
+            self.executor, self.threads = executor, max(count_processors() // count, 1)
             self.ahead = POINTS_PER_WORKER * count
         else:
             raise TypeError(
