@@ -279,7 +279,8 @@ def test_of_a_loop_one_column_drives(tmp_path: Path) -> None:
     with pytest.raises(StoreError, match="T_x and delta_x both stand in it"):
         fret.LoadPath.from_csv(file)
     moved = fret.LoadPath.from_csv(file, drive="delta_x")
-    assert moved == fret.LoadPath.start().waypoints(W=[10, 10], delta_x=[0, 0.5e-6])
+    start = fret.LoadPath.start()
+    assert moved == start.waypoints(increments=1, W=[10, 10], delta_x=[0, 0.5e-6])
     forced = fret.LoadPath.from_csv(file, drive=["T_x"])
     assert forced.T_x.tolist() == [0.0, 1.0]
 

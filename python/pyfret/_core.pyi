@@ -2022,7 +2022,7 @@ class LoadPath:
         path : path
             The file.
         increments : int, PerRange or "auto"
-            Increments per branch, as in `waypoints`.
+            Increments per branch, as in `waypoints` (default: 1, since a recording is dense).
         drive : str or list of str, optional
             The one that drives, where the file has both a load and its motion, as every measured
             loop has. The other is left out.
@@ -2197,8 +2197,8 @@ class LoadPath:
         Parameters
         ----------
         increments : int, PerRange or "auto"
-            Increments per branch; or as many as the change needs; or as the path tolerance of the
-            settings asks for.
+            Increments per branch; or as many as the change needs; or (default) as many as the path
+            tolerance of the settings takes. A dense recording takes 1.
         **columns : array
             Loads (``W``, ``T_x``, ...), motions (``delta_x``, ...), ``sigma_B``, ``sigma_B1``,
             ``rolled`` and the path time ``t`` at the waypoints. What has no column stays as it is.
