@@ -5,6 +5,7 @@ The module itself calls :func:`guard` when it is loaded, so that nothing stands 
 
 from __future__ import annotations
 
+import functools
 import inspect
 from collections.abc import Callable, Sequence
 from types import BuiltinFunctionType, MethodDescriptorType
@@ -39,7 +40,7 @@ def guard(module: ModuleType, constructors: dict[type, Callable[..., Any]]) -> N
     """
     for name, member in list(vars(module).items()):
         if isinstance(member, BuiltinFunctionType):
-            setattr(module, name, refusing(member, name))
+            setattr(module, name, refusing(taking_materials(member), name))
         elif isinstance(member, type) and not issubclass(member, BaseException):
             guard_methods(member)
             members = [key for key in vars(member) if isinstance(getattr(member, key), member)]
@@ -69,18 +70,18 @@ def guard_methods(kind: type) -> None:
         if isinstance(member, MethodDescriptorType):
             setattr(kind, key, refusing(member, name))
         elif isinstance(member, staticmethod):
-            setattr(kind, key, staticmethod(refusing(member.__func__, name)))
+            function = taking_materials(member.__func__)
+            setattr(kind, key, staticmethod(refusing(function, name)))
 
 
 def guard_constructor(kind: type, make: Callable[..., Any]) -> None:
     """Put the constructor of a class behind :func:`refusing`."""
     signature = inspect.signature(kind)
-
-    parameter = MATERIALS.get(kind.__name__)
+    parameters = material_parameters(kind)
 
     def __new__(cls: type, /, *values: Any, **keywords: Any) -> Any:  # noqa: N807
-        if parameter is not None:
-            values, keywords = with_material(parameter, values, keywords)
+        if parameters:
+            values, keywords = with_materials(parameters, values, keywords)
         return make(cls, *values, **keywords)
 
     __new__.__signature__ = signature.replace(parameters=[CLASS, *signature.parameters.values()])  # type: ignore[attr-defined]
@@ -89,22 +90,64 @@ def guard_constructor(kind: type, make: Callable[..., Any]) -> None:
     kind.__new__ = staticmethod(refusing(__new__, kind.__name__))  # type: ignore[method-assign]
 
 
-#: Parameter of a constructor that takes the name of a material of the table: its first one.
-MATERIALS = {"Body": "substrate", "Coating": "material"}
+#: Elastic materials among the parameters of constructors and functions: they take the names of the
+#: table, too. A test compares them with the signatures.
+MATERIALS = {
+    "Body": ("substrate",),
+    "Coating": ("material",),
+    **dict.fromkeys(("CattaneoMindlin", "Lubkin", "Springs", "hertz", "line_contact"), ("bodies",)),
+    "coated_indentation": ("indenter", "substrate"),
+    "dundurs_beta": ("body1", "body2"),
+    **dict.fromkeys(("channel_crack", "partial_crack"), ("film_", "below")),
+    "of_layer": ("material",),
+}
 #: The function that reads a material by its name: one, once the package is imported.
 MATERIAL_READERS: list[Callable[[Any, str], Any]] = []
 
 
-def with_material(
-    parameter: str, values: tuple[Any, ...], keywords: dict[str, Any]
+def material_parameters(call: Any) -> tuple[tuple[int, str], ...]:
+    """Return the elastic materials among the parameters of a function, with their places."""
+    taken = MATERIALS.get(call.__name__, ())
+    if not taken:
+        return ()
+    parameters = inspect.signature(call).parameters
+    return tuple((index, name) for index, name in enumerate(parameters) if name in taken)
+
+
+def taking_materials(call: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a function that takes materials by their names, or the function itself."""
+    parameters = material_parameters(call)
+    if not parameters:
+        return call
+
+    @functools.wraps(call)
+    def with_names(*values: Any, **keywords: Any) -> Any:
+        values, keywords = with_materials(parameters, values, keywords)
+        return call(*values, **keywords)
+
+    return with_names
+
+
+def with_materials(
+    parameters: Sequence[tuple[int, str]], values: tuple[Any, ...], keywords: dict[str, Any]
 ) -> tuple[tuple[Any, ...], dict[str, Any]]:
-    """Return arguments with an elastic material in place of its name or its row of the table."""
+    """Return arguments with elastic materials in place of names or rows of the table."""
     for read in MATERIAL_READERS:
-        if values:
-            values = (read(values[0], parameter), *values[1:])
-        elif parameter in keywords:
-            keywords = {**keywords, parameter: read(keywords[parameter], parameter)}
+        for index, name in parameters:
+            if index < len(values):
+                material = read_materials(read, values[index], name)
+                values = (*values[:index], material, *values[index + 1 :])
+            elif name in keywords:
+                keywords = {**keywords, name: read_materials(read, keywords[name], name)}
     return values, keywords
+
+
+def read_materials(read: Callable[[Any, str], Any], value: Any, name: str) -> Any:
+    """Return the material of a name, or of each name of a pair."""
+    if name != "bodies":
+        return read(value, name)
+    is_pair = isinstance(value, tuple | list)
+    return tuple(read(item, name) for item in value) if is_pair else value
 
 
 def register_materials(read: Callable[[Any, str], Any]) -> None:
