@@ -73,6 +73,7 @@ def ball_on_flat(
     wear: Mapping[str, Any] | None = None,
     error: float = 0.02,
     n: int | None = None,
+    grid: Grid | None = None,
     quiet: bool = False,
 ) -> Scene:
     """Make the scene of a ball on a flat: bodies, path and a grid that fits them.
@@ -102,6 +103,8 @@ def ball_on_flat(
         Error that is wanted of the pressure (default 2 %).
     n : int, optional
         Cells along the shorter side, in place of those that `error` and a film take.
+    grid : Grid, optional
+        Grid in place of the one that is chosen.
     quiet : bool
         Whether the line about the grid is not printed (default False).
 
@@ -121,7 +124,7 @@ def ball_on_flat(
     """
     bodies = shaped(ball, Sphere(R=as_number(R)), "ball"), shaped(flat, Flat(), "flat")
     path = path_of(W, T, shift, sigma_B, cycles, "N")
-    return fitted(bodies, path, mu, wear=wear, error=error, n=n, quiet=quiet)
+    return fitted(bodies, path, mu, wear=wear, error=error, n=n, grid=grid, quiet=quiet)
 
 
 @quantities
@@ -139,6 +142,7 @@ def cylinder_on_flat(
     wear: Mapping[str, Any] | None = None,
     error: float = 0.02,
     n: int | None = None,
+    grid: Grid | None = None,
     quiet: bool = False,
 ) -> Scene:
     """Make the scene of a long cylinder on a flat, a line contact in plane strain.
@@ -148,7 +152,7 @@ def cylinder_on_flat(
     """
     bodies = shaped(cylinder, Cylinder(as_number(R)), "cylinder"), shaped(flat, Flat(), "flat")
     path = path_of(W, T, shift, sigma_B, cycles, "N/m")
-    return fitted(bodies, path, mu, plane=True, wear=wear, error=error, n=n, quiet=quiet)
+    return fitted(bodies, path, mu, plane=True, wear=wear, error=error, n=n, grid=grid, quiet=quiet)
 
 
 @quantities
@@ -168,6 +172,7 @@ def crossed_cylinders(
     wear: Mapping[str, Any] | None = None,
     error: float = 0.02,
     n: int | None = None,
+    grid: Grid | None = None,
     quiet: bool = False,
 ) -> Scene:
     """Make the scene of two crossed cylinders, as of wires and of many rigs.
@@ -180,7 +185,7 @@ def crossed_cylinders(
         Their radii [m] (default of the second: the first radius).
     angle : float
         Angle between the axes [rad], such as ``"90 deg"`` (default: a right angle).
-    W, mu, T, shift, sigma_B, cycles, wear, error, n, quiet
+    W, mu, T, shift, sigma_B, cycles, wear, error, n, grid, quiet
         As in :func:`ball_on_flat`.
     """
     radius = as_number(R)
@@ -190,7 +195,7 @@ def crossed_cylinders(
         shaped(second, Cylinder(second_radius, angle=as_number(angle)), "second"),
     )
     path = path_of(W, T, shift, sigma_B, cycles, "N")
-    return fitted(bodies, path, mu, wear=wear, error=error, n=n, quiet=quiet)
+    return fitted(bodies, path, mu, wear=wear, error=error, n=n, grid=grid, quiet=quiet)
 
 
 @quantities
@@ -209,6 +214,7 @@ def flat_pad(
     wear: Mapping[str, Any] | None = None,
     error: float = 0.02,
     n: int | None = None,
+    grid: Grid | None = None,
     quiet: bool = False,
 ) -> Scene:
     """Make the scene of a flat pad with rounded edges on a flat: a line contact.
@@ -223,13 +229,13 @@ def flat_pad(
         Radius of the edges [m].
     W, T : float
         Forces per metre [N/m].
-    mu, shift, sigma_B, cycles, wear, error, n, quiet
+    mu, shift, sigma_B, cycles, wear, error, n, grid, quiet
         As in :func:`ball_on_flat`.
     """
     shape = FlatPunch(radius=0.5 * as_number(width), edge=as_number(edge))
     bodies = shaped(pad, shape, "pad"), shaped(flat, Flat(), "flat")
     path = path_of(W, T, shift, sigma_B, cycles, "N/m")
-    return fitted(bodies, path, mu, plane=True, wear=wear, error=error, n=n, quiet=quiet)
+    return fitted(bodies, path, mu, plane=True, wear=wear, error=error, n=n, grid=grid, quiet=quiet)
 
 
 @quantities
@@ -248,6 +254,7 @@ def rough_on_flat(
     wear: Mapping[str, Any] | None = None,
     error: float = 0.05,
     n: int | None = None,
+    grid: Grid | None = None,
     quiet: bool = False,
 ) -> Scene:
     """Make the scene of a rough ball on a flat.
@@ -260,7 +267,7 @@ def rough_on_flat(
         Measured heights, a random surface, or the file of an instrument.
     R : float
         Radius of the ball [m]: flats would touch over the whole grid.
-    W, mu, T, shift, sigma_B, cycles, wear, error, n, quiet
+    W, mu, T, shift, sigma_B, cycles, wear, error, n, grid, quiet
         As in :func:`ball_on_flat`; `error` is 5 % by default.
     """
     if isinstance(surface, SurfaceMap | Rough):
@@ -272,7 +279,7 @@ def rough_on_flat(
     shape = Sum([Sphere(R=as_number(R)), heights])
     bodies = shaped(rough, shape, "rough"), shaped(flat, Flat(), "flat")
     path = path_of(W, T, shift, sigma_B, cycles, "N")
-    return fitted(bodies, path, mu, wear=wear, error=error, n=n, quiet=quiet)
+    return fitted(bodies, path, mu, wear=wear, error=error, n=n, grid=grid, quiet=quiet)
 
 
 def shaped(part: Any, shape: Any, name: str) -> Body:
@@ -336,25 +343,29 @@ def fitted(
     wear: Mapping[str, Any] | None,
     error: float,
     n: int | None,
+    grid: Grid | None,
     quiet: bool,
     plane: bool = False,
 ) -> Scene:
     """Build the scene on a grid for its contact, its scar and its films, and print the grid."""
-    with warnings.catch_warnings():
-        # The printed line has what is not resolved.
-        warnings.simplefilter("ignore")
-        grid = for_contact(
-            *bodies,
-            path,
-            error=error,
-            plane_strain=plane,
-            wear=wear,
-            mu=mu if wear is not None else None,
-            n=n,
-        )
     film = min((b.coatings[0].thickness for b in bodies if b.coatings), default=math.inf)
-    if n is None:
-        grid = with_cells_of(grid, film / CELLS_PER_FILM)
+    if grid is not None and n is not None:
+        raise ValueError("n and grid: give one of them")
+    if grid is None:
+        with warnings.catch_warnings():
+            # The printed line has what is not resolved.
+            warnings.simplefilter("ignore")
+            grid = for_contact(
+                *bodies,
+                path,
+                error=error,
+                plane_strain=plane,
+                wear=wear,
+                mu=mu if wear is not None else None,
+                n=n,
+            )
+        if n is None:
+            grid = with_cells_of(grid, film / CELLS_PER_FILM)
     scene = Scene(body1=bodies[0], body2=bodies[1], friction=mu, grid=grid, path=path)
     if not quiet:
         print(grid_in_words(scene, film))

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+import re
 import warnings
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
+from pyfret import _core
 from pyfret._core import (
     CELLS_PER_FILM,
     Cylinder,
@@ -23,6 +25,7 @@ from pyfret._core import (
     Sum,
     SurfaceMap,
 )
+from pyfret._util.numbers import length
 from pyfret._util.scene_warnings import warn
 from pyfret.quantities import FrictionCoefficient, Length, as_number, quantities
 from pyfret.solution import solve
@@ -168,7 +171,10 @@ def for_contact(
         raise ValueError(f"n = {n}: must be 2 to {MOST} cells along the shorter side")
     pressed = _pressed(path)
     smooth1, smooth2 = (body.replace(shape=_smooth(body.shape)) for body in (body1, body2))
-    lengths = _lengths(smooth1, smooth2, pressed, as_number(start), plane_strain=plane_strain)
+    limits = _size_of_maps(body1, body2)
+    lengths = _lengths(
+        smooth1, smooth2, pressed, as_number(start), limits, plane_strain=plane_strain
+    )
     rough = smooth1 != body1 or smooth2 != body2
     first = min(lengths)
     if wear is not None:
@@ -176,7 +182,8 @@ def for_contact(
             raise ValueError("mu: must be given with wear, since only what slips wears")
         scene = Scene(body1=smooth1, body2=smooth2, friction=mu, grid=_square(first), path=path)
         lengths = _scar(scene, lengths, dict(wear), plane_strain=plane_strain)
-    sides = [(ROUGH if rough else 1.0) * room * length_of_side for length_of_side in lengths]
+    longer = (ROUGH if rough else 1.0) * room
+    sides = [min(longer * span, side) for span, side in zip(lengths, limits, strict=True)]
     cells = CELLS_TIMES_ERROR / error * room
     wave = min((_shortest(body.shape) for body in (body1, body2)), default=math.inf)
     shortest = min(sides)
@@ -260,23 +267,64 @@ def _scene(
     return Scene(body1=body1, body2=body2, friction=0.0, grid=grid, path=path)
 
 
+def _size_of_maps(*bodies: Body) -> tuple[float, float]:
+    """Sides of the smallest measured map of bodies along x and y [m]; infinite without one."""
+    sides = [math.inf, math.inf]
+    for part in (part for body in bodies for part in _parts(body.shape)):
+        if isinstance(part, SurfaceMap):
+            spacing = part.spacing if isinstance(part.spacing, tuple) else (part.spacing,) * 2
+            for k, (count, step) in enumerate(zip(part.values.shape, spacing, strict=True)):
+                if count > 1:
+                    sides[k] = min(sides[k], count * step)
+    return sides[0], sides[1]
+
+
+def _map_too_small(scene: Scene) -> ValueError:
+    """Return the refusal of a contact that is longer than the map of its surface."""
+    grid, W = scene.grid, scene.path.W[-1]
+    size = f"{length(grid.nx * grid.dx)} x {length(grid.ny * grid.dy)}"
+    text = f"the map of heights is {size}, and the contact reaches its border"
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            solve(scene, progress=False)
+    except OffGridError as error:
+        needed = max(map(float, re.findall(r"([\d.e+-]+) m\b", str(error).rpartition("about")[2])))
+        text += f": it must be about {length(needed)} long"
+        if W > 0.0:
+            # Hertz: the size of a contact grows with W^(1/3), of a line contact with W^(1/2).
+            power = 2 if grid.plane_strain else 3
+            least = W * (min(grid.nx * grid.dx, grid.ny * grid.dy) / needed) ** power
+            text += f", or W about {_core.rough(least)} {grid.unit_of('N')} in place of {W:g}"
+    return ValueError(f"{text}. Give a larger map, a smaller load or a smaller radius")
+
+
 def _lengths(
-    body1: Body, body2: Body, path: LoadPath, start: float | None, *, plane_strain: bool
+    body1: Body,
+    body2: Body,
+    path: LoadPath,
+    start: float | None,
+    limits: tuple[float, float],
+    *,
+    plane_strain: bool,
 ) -> tuple[float, float]:
     """Lengths of the box around the contact along x and y [m], centred on the grid.
 
     Each side of the grid is looked for by itself, since a roller is much longer than its contact is
-    wide. A side grows while the contact reaches the border. It gets shorter while the contact fills
-    few of its cells.
+    wide. A side grows while the contact reaches the border, up to the side of a map of heights. It
+    gets shorter while the contact fills few of its cells.
     """
     guess = _scene(body1, body2, path, (1e-3, 1e-3), plane_strain=plane_strain)
     hertz = guess.hertz
     first = start or (2.4 * hertz.a if hertz is not None else 1e-3)
+    first = min(first, *limits)
     axes = [0] if plane_strain else [0, 1]
     # Sides that were too short, and the last ones that the contact fitted.
     extent, too_short, fits = [first, first], [0.0, 0.0], [math.inf, math.inf]
     for _ in range(TRIES * len(axes)):
-        box = _box(_scene(body1, body2, path, (extent[0], extent[1]), plane_strain=plane_strain))
+        scene = _scene(body1, body2, path, (extent[0], extent[1]), plane_strain=plane_strain)
+        before = list(extent)
+        box = _box(scene)
         if box is None:
             # The sides that became shorter since it fitted are too short; else any.
             shorter = [k for k in axes if extent[k] < fits[k] < math.inf]
@@ -302,6 +350,10 @@ def _lengths(
                         wanted_extent = 1.5 * box[k]
                         above = wanted_extent > too_short[k]
                         extent[k] = wanted_extent if above else math.sqrt(extent[k] * too_short[k])
+        extent = [min(side, limit) for side, limit in zip(extent, limits, strict=True)]
+        reaches_border = box is None or any(box[k] > 0.97 * before[k] for k in axes)
+        if extent == before and reaches_border and any(map(math.isfinite, limits)):
+            raise _map_too_small(scene)
         if all(too_short[k] > 0.0 and fits[k] < 1.05 * too_short[k] for k in axes):
             return box or (extent[0], extent[1])
     raise ValueError(
@@ -353,6 +405,10 @@ def _scar(
     """Return the lengths of the box around contact and scar, by a run of wear on few cells [m]."""
     fixed = {"tolerance", "jumps", "explicit_jumps"} & wear.keys()
     how = wear if fixed else {**wear, "tolerance": ROUGHLY}
+    laws = [wear.get(name) for name in ("body1", "body2")]
+    if any(isinstance(law, (list, tuple)) and None not in law for law in laws):
+        # Every layer has its law: the scar belongs to all cycles.
+        how = {"worn_through": "go_on", **how}
     extent = 2.0 * max(first)
     for _ in range(TRIES):
         cells = IN_A_TRIAL * extent / min(first)

@@ -62,7 +62,7 @@ MEANT = {
     "detrend": ("level",),
     "p_max": ("p_H",),
     "energy": ("loops", "dissipated_energy", "dissipated"),
-    "spacing": ("dx", "dy"),
+    "spacing": ("dx", "dy", "grid"),
     "cell_size": ("spacing", "dx", "dy"),
     "step": ("spacing", "dx", "dy"),
     "pitch": ("spacing", "dx", "dy"),
@@ -83,7 +83,9 @@ MEANT = {
     "pressure": ("p", "p_max", "p_H"),
     "traction": ("q_x", "q_y", "p"),
     "area": ("contact_area",),
-    "width": ("half_width", "a"),
+    "width": ("half_width", "a", "grid"),
+    "delta_x": ("shift",),
+    "t_x": ("T",),
     "friction_coefficient": ("friction", "mu"),
     "compliance": ("stiffness",),
     "secant_stiffness": ("stiffness",),
@@ -137,7 +139,7 @@ MEANT = {
     "life": ("best", "margin", "cycles_to", "range_of_cycles"),
     "max": ("maximum",),
     "offset": ("middle",),
-    "extent": ("width", "nx", "dx"),
+    "extent": ("width", "nx", "dx", "grid"),
 }
 
 
