@@ -18,7 +18,12 @@ __all__ = ["SHORT", "full", "in_si", "one_of", "opposite", "part", "single"]
 #: The place in a list, ``path[0].W``.
 PLACE = re.compile(r"\[(\d+|\*)\]")
 #: Parameters with a short name, and their keys in a scene file.
-SHORT = {"mu": "friction.mu", "friction": "friction.mu", "W": "path.*.W"}
+SHORT = {
+    "mu": "friction.mu",
+    "friction": "friction.mu",
+    "W": "path.*.W",
+    "grid.width": "grid.extent",
+}
 
 
 def single(name: str) -> str:

@@ -7,7 +7,7 @@ import math
 import re
 import warnings
 import zlib
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from decimal import Decimal
 from fractions import Fraction
@@ -88,17 +88,72 @@ def with_values(scene: Scene | str | PathLike[str], values: Mapping[str, Any]) -
     --------
     >>> harder = with_values("coated.toml", {"body2.coatings.0.E": 3e11})  # doctest: +SKIP
     """
-    settings = [
-        f"{key}={to_toml_value(item)}" for key, _, item in expand_keys(values.items(), scene)
-    ]
+    expanded = expand_keys(values.items(), scene)
+    # "friction" is short for the coefficient, and names the part as well.
+    objects = {
+        (name if key == SHORT.get(name) else key): item
+        for key, name, item in expanded
+        if is_part(item)
+    }
+    settings = [f"{key}={to_toml_value(item)}" for key, _, item in expanded if not is_part(item)]
     if not isinstance(scene, Scene):
-        return Scene.from_file(scene, set=settings)
-    made = Scene.from_toml(scene.to_toml(), set=settings)
+        return replace_parts(Scene.from_file(scene, set=settings), objects)
+    keys = {key for key, _, _ in expanded}
+    made = Scene.from_toml(text_of_scene(scene, keys), set=settings) if settings else scene
+    made = replace_parts(made, objects)
     warn_single_branch(values, scene)
     if callable(scene.friction.law):
         # A function stands in no text.
         return made.replace(friction=made.friction.replace(law=scene.friction.law))
     return made
+
+
+def is_part(value: Any) -> bool:
+    """Whether a value is an object of pyfret, such as a grid, a body or a coating."""
+    return type(value).__module__.partition(".")[0] == "pyfret"
+
+
+def replace_parts(scene: Scene, parts: Mapping[str, Any]) -> Scene:
+    """Return a scene with objects at keys: ``{"grid": Grid(...), "body2.coatings.0": Coating()}``.
+
+    Raises
+    ------
+    InvalidSceneError
+        The scene has no such part.
+    TypeError
+        The object is of another class than the part.
+    """
+
+    def put(owner: Any, names: list[str], value: Any) -> Any:
+        if not names:
+            return value
+        name, *others = names
+        try:
+            if isinstance(owner, (list, tuple)):
+                changed = list(owner)
+                changed[int(name)] = put(changed[int(name)], others, value)
+                return changed
+            return owner.replace(**{name: put(getattr(owner, name), others, value)})
+        except (AttributeError, LookupError):
+            raise InvalidSceneError(f"{key}: the scene has no such part") from None
+
+    for key, value in parts.items():
+        scene = put(scene, key.split("."), value)
+    return scene
+
+
+def text_of_scene(scene: Scene, keys: Collection[str]) -> str:
+    """Return a scene as a file has it.
+
+    Other numbers of cells leave the sides of the grid, and other sides the numbers of cells.
+    """
+    text = scene.to_toml()
+    if not {"grid.n", "grid.extent"} & set(keys) or "grid.spacing" in keys:
+        return text
+    grid = scene.grid
+    sides = f"extent = [{grid.nx * grid.dx!r}, {grid.ny * grid.dy!r}]"
+    before, heading, after = text.partition("[grid]\n")
+    return before + heading + re.sub("^spacing = .*$", sides, after, count=1, flags=re.MULTILINE)
 
 
 def expand_key(
