@@ -34,6 +34,8 @@ __all__ = ["Comparison", "Preference"]
 
 #: Endings of the names of places and of averaging distances.
 PLACES = ("_x", "_z", "_layer", "_L")
+#: Numbers of a run of wear.
+OF_WEAR = ("wear_through", "worn_depth")
 #: Digits of a number without an error.
 DIGITS = 4
 
@@ -47,11 +49,16 @@ class Preference(NamedTuple):
     worse: list[str]
     #: Whether the number is one of the same material in all candidates.
     comparable: bool = True
+    #: Candidates whose numbers have no upper end, since their runs left the grid: with several best
+    #: ones nothing is decided.
+    ended: Sequence[str] = ()
 
     def __str__(self) -> str:
         """Describe the preference in a few words."""
         if not self.comparable:
             return "different materials"
+        if self.ended and len(self.best) > 1:
+            return f"undecided: the grid is too small for {', '.join(self.ended)}"
         if not self.worse:
             return "no difference" if len(self.best) > 1 else ""
         alike = " (no difference)" if len(self.best) > 1 else ""
@@ -194,7 +201,14 @@ class Comparison(Labelled, Figured):
         values = {name: sign * float(d[of].sel(candidate=name)) for name in range_of}
         best_low = range_of[max(values, key=lambda name: values[name])][0]
         best = [name for name, (_, high) in range_of.items() if high >= best_low]
-        return Preference(best, [name for name in range_of if name not in best])
+        ended = [
+            name
+            for name in best
+            if of in OF_WEAR
+            and f"{name}, wear" in self.unanswered
+            and math.isinf(range_of[name][1])
+        ]
+        return Preference(best, [name for name in range_of if name not in best], ended=ended)
 
     def _same_material(self, of: str) -> bool:
         """Return whether a stress belongs to the same material in all candidates that have it."""
