@@ -64,7 +64,7 @@ impl Method {
         let half_width = half_width(scene, stop)?;
         let ratio = amplitude / half_width;
         let size = format!(
-            "the stroke of +-{amplitude:.3e} m is {ratio:.2} of the half-width of a spot, {half_width:.3e} m"
+            "the stroke of +-{amplitude:.3e} m is {ratio:.2} of the half-width of the spots, {half_width:.3e} m (lower quartile by load)"
         );
         let slides = amplitude > GROSS * ELASTIC * scene.friction.mu * scene.reference_approach();
         let chosen = match (wear.cycling, &corners) {

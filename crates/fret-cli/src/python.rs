@@ -27,9 +27,9 @@ sys.path[:] = [place for place in sys.path if place not in ('', '.')]
 try:
     import pyfret
 except ModuleNotFoundError as absent:
-    if absent.name != 'pyfret': raise
-    print(f'fret: {sys.executable}: has no package pyfret; `fret {sys.argv[1]}` needs Python with the package pyfret. \
-Install it, or name the interpreter in FRET_PYTHON', file=sys.stderr)
+    if str(absent.name).startswith('pyfret.'): raise
+    print(f'fret: {sys.executable}: has no package {absent.name}; `fret {sys.argv[1]}` needs Python with the package \
+pyfret and what it requires. Install it, or name the interpreter in FRET_PYTHON', file=sys.stderr)
     sys.exit(2)
 import runpy
 runpy.run_module('pyfret', run_name='__main__', alter_sys=True)";
