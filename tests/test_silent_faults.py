@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import math
+import re
 import warnings
 from typing import Any
 
@@ -12,6 +13,7 @@ import pytest
 
 import pyfret as fret
 from pyfret import fatigue, reference, shapes
+from pyfret.fatigue.ranges import known_as
 
 STEEL = fret.Elastic(E=210e9, nu=0.3)
 R, W = 8e-3, 60.0
@@ -205,3 +207,18 @@ def test_members_of_an_enumeration_take_their_names() -> None:
     assert branch.spacing == fret.Spacing.EQUAL_RADIUS
     with pytest.raises(ValueError, match=r"spacing.*must be one of.*uniform"):
         fret.Branch(W=1.0, spacing="even", t=1.0)
+
+
+def test_every_criterion_with_an_estimated_limit_names_it() -> None:
+    """Criteria with a hydrostatic or normal stress: their notes have the limits by a rule."""
+    criteria = set()
+    for material in fatigue.Materials().values():
+        sources = {name: source for name, _, source in material.numbers()}
+        if known_as(sources.get("t_D", "")) != "estimate":
+            continue
+        for criterion in ("crossland", "dang_van", "findley", "matake", "mcdiarmid"):
+            notes = material.assessment(criterion).range_at(1.0, 0.0, material)[3]
+            text = "; ".join(notes)
+            assert re.search(rf"t_D of {material.name} (is|are) (an )?estimate", text), text
+            criteria.add(criterion)
+    assert len(criteria) == 5
