@@ -274,6 +274,7 @@ def test_a_stress_has_a_summary_of_its_largest_samples() -> None:
 
 def test_a_parameter_of_roughness_is_named_after_the_standard() -> None:
     statistics = fret.SurfaceMap(ROUGH, spacing=PITCH).statistics()
+    assert statistics.Sa == statistics.S_a
     with pytest.raises(AttributeError, match="S_a"):
-        _ = statistics.Sa  # type: ignore[attr-defined]
+        _ = statistics.Sv
     assert pickle.loads(pickle.dumps(statistics)) == copy.copy(statistics)

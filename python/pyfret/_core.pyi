@@ -2875,6 +2875,8 @@ class Scene:
     @property
     def settings(self, /) -> Settings:
         """How the scene is solved."""
+    def summary(self, /) -> str:
+        """Describe bodies, friction, grid, Hertz contact and load path, a line for each."""
     @property
     def title(self, /) -> str:
         """One line that names the scene."""
@@ -3513,6 +3515,17 @@ class SurfaceMap:
         Describe the map: points, pitch, size, form, and the parameters without the form.
 
         A ball that was measured with its curvature is named as such, with its radius.
+        """
+    def to_csv(self, /, path: str | PathLike[str]) -> None:
+        """
+        Write the heights as a table of text: x, y and z of a point in m on each line.
+
+        :func:`pyfret.read_surface` reads it. A file that is there is replaced.
+
+        Parameters
+        ----------
+        path : path
+            The file.
         """
     @property
     def values(self, /) -> NDArray[float64]:

@@ -17,8 +17,9 @@ from pyfret.scene.maps import (
     spectrum,
     statistics,
     summarize_map,
+    write_heights,
 )
-from pyfret.scene.tables import scene_html
+from pyfret.scene.tables import scene_html, summarize_scene
 from pyfret.settings import Settings
 
 if TYPE_CHECKING:
@@ -44,9 +45,11 @@ __all__ = [
     "spectrum",
     "statistics",
     "summarize_map",
+    "summarize_scene",
     "surface_heights",
     "warn",
     "with_values",
+    "write_heights",
 ]
 
 

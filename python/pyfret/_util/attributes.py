@@ -16,6 +16,32 @@ __all__ = ["attribute_error", "dataset_attribute", "dataset_names", "missing_att
 
 #: Modules of the public face that are loaded, by their names; the package enters them.
 PUBLIC_MODULES: dict[str, ModuleType] = {}
+#: Calls that print, draw and write an object, and what they do.
+OUTPUTS = {
+    "summary": "summary() describes",
+    "plot": "plot() draws",
+    "to_csv": 'to_csv("numbers.csv") writes',
+    "to_dataframe": "to_dataframe() returns",
+    "to_excel": 'to_excel("numbers.xlsx") writes',
+    "save": 'save("saved.nc") writes',
+}
+#: Objects that draw and write the numbers of another class, as they are called in examples.
+OWNERS = {
+    "CrackArrest": "crack",
+    "CrackLife": "crack",
+    "CyclicResponse": "result",
+    "Errors": "stress",
+    "Extremum": "stress",
+    "Form": "surface",
+    "LifeRange": "life",
+    "LoadPath": "fret.solve(scene, path)",
+    "Place": "stress",
+    "Posterior": "fitted",
+    "Range": "life",
+    "Scene": "fret.solve(scene)",
+    "Statistics": "surface",
+    "Zone": "result",
+}
 #: Dimensions of a dataset that are coordinates of points.
 PLACES = ("x", "y", "s", "z", "depth")
 
@@ -73,7 +99,20 @@ def missing_attribute(self: Any, name: str, elsewhere: Mapping[str, str] | None 
         # A property that failed has its own error.
         object.__getattribute__(self, name)
     public = [member for member in dir(self) if not member.startswith("_")]
-    raise attribute_error(kind.__name__, name, public, elsewhere or {})
+    where = {**output_calls(kind), **(elsewhere or {})}
+    raise attribute_error(kind.__name__, name, public, where)
+
+
+def output_calls(kind: type) -> dict[str, str]:
+    """Return what prints, draws or writes an object of a class that cannot do so itself."""
+    owner = next((OWNERS[base.__name__] for base in kind.__mro__ if base.__name__ in OWNERS), None)
+    printed = "print(x) gives its numbers"
+    if owner is None:
+        written = "to_csv(path) writes its numbers" if hasattr(kind, "to_csv") else printed
+        return {**dict.fromkeys(OUTPUTS, written), "summary": printed}
+    kept = "its numbers are attributes"
+    calls = {name: f"{kept}; {owner}.{call} the whole" for name, call in OUTPUTS.items()}
+    return {**calls, "summary": printed}
 
 
 def dataset_attribute(self: Any, name: str) -> Any:
@@ -94,7 +133,9 @@ def dataset_attribute(self: Any, name: str) -> Any:
         return dataset.attrs[name]
     dims = ", ".join(f"{dim}=-1" for dim in map(str, dataset.sizes) if dim not in PLACES)
     last = {"at": f"its last numbers are its .dataset.isel({dims})"} if dims else {}
-    missing_attribute(self, name, last)
+    first = next(map(str, dataset.data_vars), "")
+    drawn = {"plot": f"xarray draws its numbers, .dataset[{first!r}].plot()"}
+    missing_attribute(self, name, {**drawn, "save": "it is written by .to_csv(path)", **last})
 
 
 def dataset_names(dataset: xr.Dataset) -> list[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,9 +11,10 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._util.keywords import nearest_names
+from pyfret._util.spelling import factor_between
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable
     from typing import TypeAlias
 
     import pandas as pd
@@ -26,6 +27,7 @@ __all__ = [
     "Tabular",
     "check_path",
     "choose_columns",
+    "convert_units",
     "data_frame",
     "head",
     "unit_of",
@@ -168,6 +170,68 @@ def choose_columns(frame: pd.DataFrame, columns: Sequence[str] | None) -> pd.Dat
     return frame[[heads.get(name, name) for name in names]]
 
 
+def convert_units(frame: pd.DataFrame, units: Mapping[str, str] | None) -> pd.DataFrame:
+    """Return a table with some columns in other units, in their heads as well.
+
+    Parameters
+    ----------
+    frame : DataFrame
+        Units in the names of the columns.
+    units : mapping of str to str, optional
+        Units by the names of columns, or by the units that are replaced: ``{"m": "um"}``.
+
+    Raises
+    ------
+    TypeError
+        It is no mapping of texts.
+    ValueError
+        There is no such column, or the unit measures something else; the message has both.
+    """
+    if units is None:
+        return frame
+    if not isinstance(units, Mapping) or not all(
+        isinstance(text, str) for pair in units.items() for text in pair
+    ):
+        raise TypeError('units: must be names of columns with their units, such as {"T_x": "kN"}')
+    parts = {column: column.removesuffix("]").split(" [") for column in map(str, frame.columns)}
+    names = {name for column, part in parts.items() for name in (column, *part) if len(part) == 2}
+    for name in units:
+        if name not in names:
+            near = nearest_names(name, names, 3)
+            hint = f"; the nearest are {', '.join(near)}" if near else ""
+            raise ValueError(f"units: no column with a unit is called {name!r:.60}{hint}")
+    converted = {}
+    for column, part in parts.items():
+        unit = next((units[key] for key in (column, *part) if key in units), None)
+        if unit is None or len(part) < 2:
+            converted[column] = frame[column]
+            continue
+        factor = factor_between(part[1], unit)
+        if factor is None:
+            raise ValueError(f"units: {part[0]} is in {part[1]}: cannot be in {unit!r:.60}")
+        converted[f"{part[0]} [{unit}]"] = frame[column] * factor
+    return type(frame)(converted)
+
+
+def convert_tables(
+    frames: Mapping[str, pd.DataFrame], units: Mapping[str, str] | None
+) -> dict[str, pd.DataFrame]:
+    """Return tables in other units; a column may be in a single one of them."""
+    if not isinstance(units, Mapping) or len(frames) == 1:
+        return {name: convert_units(frame, units) for name, frame in frames.items()}
+    heads = {
+        name: {text for column in frame for text in str(column).removesuffix("]").split(" [")}
+        for name, frame in frames.items()
+    }
+    absent = {key: unit for key, unit in units.items() if not any(key in k for k in heads.values())}
+    if absent:
+        convert_units(next(iter(frames.values())), absent)
+    return {
+        name: convert_units(frame, {k: unit for k, unit in units.items() if k in heads[name]})
+        for name, frame in frames.items()
+    }
+
+
 class Tabular:
     """Something with tables: data frames, CSV and Excel, units in the names of columns."""
 
@@ -192,7 +256,9 @@ class Tabular:
             raise ValueError(f"of = {of!r:.60}: must be one of {', '.join(tables)}")
         return tables[of]
 
-    def to_dataframe(self, of: str | None = None) -> pd.DataFrame:
+    def to_dataframe(
+        self, of: str | None = None, *, units: Mapping[str, str] | None = None
+    ) -> pd.DataFrame:
         """Return a table of pandas: a row for every point, units in the names of the columns.
 
         Parameters
@@ -200,8 +266,11 @@ class Tabular:
         of : str, optional
             The table (default: the main one). A run has ``"increments"``, ``"branches"``,
             ``"loops"`` and ``"error_bars"``, wear has ``"jumps"`` and ``"loops"``.
+        units : dict, optional
+            Units of some columns in place of SI units, such as ``{"delta_x": "um"}``, or of all
+            columns of a unit, such as ``{"m": "um"}``.
         """
-        return self._frame(of)
+        return convert_units(self._frame(of), units)
 
     def to_csv(
         self,
@@ -209,6 +278,7 @@ class Tabular:
         *,
         of: str | None = None,
         columns: Sequence[str] | None = None,
+        units: Mapping[str, str] | None = None,
     ) -> None:
         """Write :meth:`to_dataframe` as a table of text (``.csv``).
 
@@ -223,10 +293,12 @@ class Tabular:
         columns : sequence of str, optional
             Columns in this order, such as ``["delta_x", "T_x"]``, with or without their units
             (default: all).
+        units : dict, optional
+            Units of columns, as in :meth:`to_dataframe`.
         """
         self._maker(of)
         check_path(path)
-        frame = choose_columns(self._frame(of), columns)
+        frame = convert_units(choose_columns(self._frame(of), columns), units)
         frame.to_csv(path, index=False, lineterminator="\n", encoding="utf-8")
 
     def to_excel(
@@ -235,6 +307,7 @@ class Tabular:
         *,
         of: str | None = None,
         columns: Sequence[str] | None = None,
+        units: Mapping[str, str] | None = None,
     ) -> None:
         """Write the tables into a workbook of Excel (``.xlsx``): a sheet for each, or `of` alone.
 
@@ -248,6 +321,8 @@ class Tabular:
             The table, as in :meth:`to_dataframe` (default: all, of `columns` the main one).
         columns : sequence of str, optional
             Columns as in :meth:`to_csv` (default: all).
+        units : dict, optional
+            Units of columns, as in :meth:`to_dataframe`. Each table has those that it has.
         """
         self._maker(of)
         check_path(path)
@@ -257,4 +332,4 @@ class Tabular:
         elif columns is not None:
             names = names[:1]
         frames = {name: choose_columns(self._frame(name), columns) for name in names}
-        write_excel(frames, path)
+        write_excel(convert_tables(frames, units), path)

@@ -2,19 +2,53 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import xarray as xr
+from xarray.plot.accessor import DatasetPlotAccessor
 
-from pyfret._util.csv_table import check_path, choose_columns, data_frame, write_excel
+from pyfret._util.attributes import attribute_error
+from pyfret._util.csv_table import (
+    check_path,
+    choose_columns,
+    convert_units,
+    data_frame,
+    write_excel,
+)
+from pyfret._util.keywords import nearest_names
+from pyfret._util.window import format_table
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Hashable, Sequence
+    from collections.abc import Hashable, Mapping, Sequence
 
     import pandas as pd
 
 __all__ = ["Table"]
+
+
+#: Most rows of a summary; of more the first and the last ones are printed.
+ROWS = 12
+#: Most columns of a summary.
+COLUMNS = 16
+
+
+class TableFigures(DatasetPlotAccessor):
+    """The figures of a table, as xarray has them; called itself, a column over the rows."""
+
+    def __call__(self, column: str | None = None, **options: Any) -> Any:
+        """Draw a column over the rows (default: the dissipated energy, else the first column).
+
+        `options` are the options of :meth:`xarray.DataArray.plot.line`.
+        """
+        table = self._ds
+        names = [str(name) for name, v in table.data_vars.items() if v.ndim == 1]
+        name = column or next((n for n in names if n == "dissipated"), names[0])
+        if name not in names:
+            near = ", ".join(nearest_names(name, names, 3) or names)
+            raise ValueError(f"column = {name!r:.60}: there is {near}")
+        lines = table[name].plot.line(**{"marker": "o", **options})
+        return lines[0].axes
 
 
 class Table(xr.Dataset):  # type: ignore[no-untyped-call]
@@ -22,17 +56,62 @@ class Table(xr.Dataset):  # type: ignore[no-untyped-call]
 
     __slots__ = ()
 
-    def to_dataframe(self, dim_order: Sequence[Hashable] | None = None) -> pd.DataFrame:
+    @property
+    def plot(self) -> TableFigures:  # type: ignore[override]
+        """Its figures: ``plot("T")`` draws a column over the rows."""
+        return TableFigures(self)
+
+    def summary(self) -> str:
+        """Give the rows as a text, units in the heads.
+
+        Of more than 12 rows it has the first and the last ones. Columns of zeros are left out.
+        """
+        frame = self.to_dataframe()
+        full = frame.loc[:, (frame.fillna(0.0) != 0.0).any()]
+        frame = full.iloc[:, :COLUMNS]
+        rows = [[f"{value:.6g}" for value in row] for row in frame.to_numpy(dtype=float)]
+        if len(rows) > ROWS:
+            rows = [*rows[: ROWS // 2], ["..."] * frame.shape[1], *rows[-ROWS // 2 :]]
+        text = format_table([str(name).replace(" [", "\n[") for name in frame.columns], rows)
+        omitted = full.shape[1] - frame.shape[1]
+        return f"{text}\n{omitted} more columns: to_dataframe()" if omitted else text
+
+    def __getattr__(self, name: str) -> Any:
+        """Refuse a name that is no variable, with the nearest one."""
+        try:
+            return super().__getattr__(name)
+        except AttributeError:
+            if name.startswith("_"):
+                raise
+        names = [str(variable) for variable in self.variables]
+        members = ("summary", "plot", "to_csv", "to_excel", "to_dataframe")
+        raise attribute_error("table", name, [*names, *members], {})
+
+    def to_dataframe(
+        self,
+        dim_order: Sequence[Hashable] | None = None,
+        *,
+        units: Mapping[str, str] | None = None,
+    ) -> pd.DataFrame:
         """Return a table of pandas: a row for every point, units in the names of the columns.
 
         Parameters
         ----------
         dim_order : sequence, optional
             The axes of the rows, as xarray has it (default: those of the first variable).
+        units : dict, optional
+            Units of some columns in place of SI units, such as ``{"dissipated": "uJ"}``.
         """
-        return data_frame(self, None if dim_order is None else [str(dim) for dim in dim_order])
+        axes = None if dim_order is None else [str(dim) for dim in dim_order]
+        return convert_units(data_frame(self, axes), units)
 
-    def to_csv(self, path: str | os.PathLike[str], *, columns: Sequence[str] | None = None) -> None:
+    def to_csv(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        columns: Sequence[str] | None = None,
+        units: Mapping[str, str] | None = None,
+    ) -> None:
         """Write :meth:`to_dataframe` as a table of text (``.csv``).
 
         A file that is there is replaced.
@@ -43,13 +122,19 @@ class Table(xr.Dataset):  # type: ignore[no-untyped-call]
             The file.
         columns : sequence of str, optional
             Columns in this order, with or without their units (default: all).
+        units : dict, optional
+            Units of columns, as in :meth:`to_dataframe`.
         """
         check_path(path)
-        frame = choose_columns(self.to_dataframe(), columns)
+        frame = convert_units(choose_columns(self.to_dataframe(), columns), units)
         frame.to_csv(path, index=False, lineterminator="\n", encoding="utf-8")
 
     def to_excel(
-        self, path: str | os.PathLike[str], *, columns: Sequence[str] | None = None
+        self,
+        path: str | os.PathLike[str],
+        *,
+        columns: Sequence[str] | None = None,
+        units: Mapping[str, str] | None = None,
     ) -> None:
         """Write :meth:`to_dataframe` as a sheet of Excel (``.xlsx``).
 
@@ -61,6 +146,9 @@ class Table(xr.Dataset):  # type: ignore[no-untyped-call]
             The file.
         columns : sequence of str, optional
             Columns in this order, with or without their units (default: all).
+        units : dict, optional
+            Units of columns, as in :meth:`to_dataframe`.
         """
         check_path(path)
-        write_excel({"values": choose_columns(self.to_dataframe(), columns)}, path)
+        frame = convert_units(choose_columns(self.to_dataframe(), columns), units)
+        write_excel({"values": frame}, path)

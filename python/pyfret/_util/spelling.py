@@ -6,7 +6,7 @@ import re
 
 from pyfret import _core
 
-__all__ = ["respelled"]
+__all__ = ["factor_between", "respelled"]
 
 #: Signs of powers and products, as texts without superscripts have them.
 SIGNS = str.maketrans({"²": "^2", "³": "^3", "·": " ", "*": " ", "⋅": " "})
@@ -21,7 +21,7 @@ DIMENSIONS: dict[str, dict[str, float]] = {
     "stress": {"N": 1, "m": -2},
 }
 #: Units of energy, which stand in the table of units as parts of others alone [J].
-ENERGIES = {"J": 1.0, "mJ": 1e-3, "kJ": 1e3}
+ENERGIES = {"J": 1.0, "nJ": 1e-9, "uJ": 1e-6, "µJ": 1e-6, "mJ": 1e-3, "kJ": 1e3, "MJ": 1e6}
 
 
 def respelled(text: str, unit: str) -> float | None:
@@ -40,6 +40,23 @@ def respelled(text: str, unit: str) -> float | None:
         return float(number) * parsed[0] / target[0]
     except ValueError:
         return None
+
+
+def factor_between(unit: str, wanted: str) -> float | None:
+    """Return the number of a wanted unit in one unit; None where they measure different things.
+
+    Examples
+    --------
+    >>> factor_between("J", "uJ")
+    1e6
+    """
+    first, second = _core.unit_of(unit), _core.unit_of(wanted)
+    if first is not None and second is not None:
+        return first[1] / second[1] if first[0] == second[0] else None
+    parsed, target = product_of(unit), product_of(wanted)
+    if parsed is None or target is None or parsed[1] != target[1]:
+        return None
+    return parsed[0] / target[0]
 
 
 def product_of(name: str) -> tuple[float, dict[str, float]] | None:

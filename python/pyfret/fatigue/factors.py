@@ -21,6 +21,7 @@ from pyfret._core import Material, with_error
 from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import layer_index
+from pyfret._util.numbers import place as describe_place
 from pyfret.fatigue.cycle_section import (
     choose_depths,
     concat_sections,
@@ -125,6 +126,16 @@ class LoadFactors(Labelled, Figured):
         return min(
             (self.least_of(layer, of) for layer in self.layers), key=lambda least: least.value
         )
+
+    def summary(self) -> str:
+        """Give the least factor of each limit, with its error and place."""
+        lines = []
+        for factor in get_args(Factor):
+            with suppress(ValueError):
+                least = self.least(factor)
+                number = with_error(least.value, least.error)
+                lines.append(f"{factor}: {number} at {describe_place(least, least.coatings)}")
+        return "\n".join(lines)
 
     def __eq__(self, other: object) -> bool:
         """Whether dataset and layers are the same."""

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from pyfret._core import known_as, with_range
+from pyfret._util.attributes import missing_attribute
 
 __all__ = ["LifeRange", "Range", "known_as"]
 
@@ -55,3 +56,9 @@ class LifeRange(NamedTuple):
     def __repr__(self) -> str:
         """Give the best value and the range, with the digits that the range leaves."""
         return with_range(self.best, self.low, self.high)
+
+
+if not TYPE_CHECKING:
+    # A method within the class would let type checkers take any name.
+    Range.__getattr__ = missing_attribute
+    LifeRange.__getattr__ = missing_attribute

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from pyfret._core import RATCHETS, SHAKEN
+from pyfret._util.attributes import missing_attribute
 from pyfret._util.numbers import in_words, um
 from pyfret.quantities import quantities
 from pyfret.subsurface.extremum import Extremum, Place
@@ -190,3 +191,8 @@ def strain_growth_of_body(
         coatings=len(last.body(body_number).coatings),
     )
     return largest.value, net_strain, largest
+
+
+if not TYPE_CHECKING:
+    # A method within the class would let type checkers take any name.
+    CyclicResponse.__getattr__ = missing_attribute

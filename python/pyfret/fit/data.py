@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import sys
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 import numpy as np
 
 from pyfret import _core
 from pyfret._util.arrays import together
+from pyfret._util.csv_table import Tabular
 from pyfret._util.holds_arrays import HoldsArrays
+from pyfret._util.lazy import xr
 from pyfret._util.numbers import length
 from pyfret.fit.recorders import read_columns
 from pyfret.fit.turns import find_turns, remove_drift, turns_between
@@ -34,6 +36,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
+    from pyfret._util.csv_table import Tables
     from pyfret.fit.columns import RecordColumns
 
 __all__ = [
@@ -58,8 +61,29 @@ END, SLIDING = 0.25, 0.3
 WHOLE = 0.9
 
 
+class Measurement(HoldsArrays, Tabular):
+    """Measured points: a table of columns, and a picture of the last one over the first."""
+
+    #: Unit and meaning of each column, by the name of its field.
+    columns: ClassVar[Mapping[str, tuple[str, str]]]
+
+    def _tables(self) -> Tables:
+        """Return what makes the table: a row for every point."""
+        variables = {
+            name: ("point", np.asarray(getattr(self, name)), {"units": unit, "long_name": meaning})
+            for name, (unit, meaning) in self.columns.items()
+        }
+        return {"points": lambda: (xr.Dataset(variables), ("point",))}
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the measured points."""
+        from pyfret.fit.measured_figure import measured_points
+
+        return measured_points(self.to_dataframe(), self.columns, ax)
+
+
 @part(eq=False, repr=False)
-class Loops(HoldsArrays):
+class Loops(Measurement):
     """Friction loops: force over shift, branch by branch.
 
     Attributes
@@ -82,6 +106,12 @@ class Loops(HoldsArrays):
         Whether drifts of both gauges, linear in the number of the point, are fitted. None: if the
         record has several cycles or two turns.
     """
+
+    columns: ClassVar = {
+        "delta": ("m", "shift"),
+        "cycle": ("1", "cycle, from 0"),
+        "T": ("N", "force"),
+    }
 
     delta: MeasuredShifts
     T: NDArray[np.float64]
@@ -127,12 +157,6 @@ class Loops(HoldsArrays):
             )
             lines.insert(2, f"energy per cycle {energies.mean():.4g} J{spread}")
         return "\n".join(lines).replace("µ", "u")
-
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """Draw force over shift."""
-        from pyfret.fit.loop_figure import measured_loops
-
-        return measured_loops(self.delta, self.T, ax)
 
     @property
     def sliding_slope(self) -> float | None:
@@ -246,11 +270,13 @@ def _without_drift(
 
 @quantities
 @dataclass(frozen=True, eq=False, repr=False)
-class Indentation(HoldsArrays):
+class Indentation(Measurement):
     """An indentation curve: approach [m] over normal force [N].
 
     With ``frame`` the compliance of the frame is fitted, too.
     """
+
+    columns: ClassVar = {"delta_z": ("m", "approach"), "W": ("N", "normal force")}
 
     W: NDArray[np.float64]
     delta_z: MeasuredShifts
@@ -270,14 +296,23 @@ class Indentation(HoldsArrays):
         loaded = force > 0
         return Indentation(force[loaded], approach[loaded], noise, frame)
 
+    def summary(self) -> str:
+        """Describe the curve: points, largest force and approach."""
+        return (
+            f"{self.W.size} points, up to {float(self.W.max()):.4g} N and an approach of "
+            f"{length(float(np.max(self.delta_z)))}"
+        )
+
 
 @quantities
 @dataclass(frozen=True, eq=False, repr=False)
-class Scar(HoldsArrays):
+class Scar(Measurement):
     """A worn profile along x at y = 0: depth [m] of a body, or of both with ``body_number=0``.
 
     ``wear`` holds the arguments of the run that made it, such as ``cycles`` and ``body2``.
     """
+
+    columns: ClassVar = {"x": ("m", "place"), "depth": ("m", "worn depth, downwards")}
 
     x: ScarPositions
     depth: MeasuredShifts
@@ -319,7 +354,7 @@ class Scar(HoldsArrays):
 
 @quantities
 @dataclass(frozen=True, eq=False, repr=False)
-class Lives(HoldsArrays):
+class Lives(Measurement):
     """Cycles to the end of a coating in several tests.
 
     Attributes
@@ -336,12 +371,19 @@ class Lives(HoldsArrays):
         Standard deviation of ln(cycles).
     """
 
+    columns: ClassVar = {"cycles": ("1", "cycles to the end of the coating")}
+
     cycles: NDArray[np.float64]
     settings: Sequence[Mapping[str, Any]]
     wear: Mapping[str, Any]
     part: float = 1.0
     body_number: int = 2
     noise: float | None = field(default=None)
+
+    def summary(self) -> str:
+        """Describe the tests: their number and the range of their lives."""
+        lives = np.asarray(self.cycles, dtype=float)
+        return f"{lives.size} tests, {lives.min():.4g} to {lives.max():.4g} cycles"
 
 
 @dataclass(frozen=True, eq=False, repr=False)

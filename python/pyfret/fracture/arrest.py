@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from pyfret._core import rough, with_error, with_range
+from pyfret._util.attributes import missing_attribute
 from pyfret._util.numbers import um
 
 __all__ = ["WORDS", "CrackArrest", "CrackLife"]
@@ -257,3 +258,9 @@ class CrackLife:
             text = f"{with_range(self.cycles, self.low, self.high)} cycles {path_text}"
         notes = self.arrest.estimate, self.estimate
         return [text, *estimate_notes(*notes, has_range=self.low is not None)]
+
+
+if not TYPE_CHECKING:
+    # A method within the class would let type checkers take any name.
+    CrackArrest.__getattr__ = missing_attribute
+    CrackLife.__getattr__ = missing_attribute

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from pyfret._core import with_error
+from pyfret._util.attributes import missing_attribute
 from pyfret._util.numbers import um
 from pyfret.fatigue.cycle_section import sections_of_cycle
 from pyfret.fatigue.cycles import history
@@ -204,3 +205,8 @@ def tension_along(result: Run, section: Section, depths: list[float]) -> float:
     xx, yy, xy = (of_film.sel(component=name, drop=True) for name in ("s_xx", "s_yy", "s_xy"))
     cos, sin = np.cos(line.angle), np.sin(line.angle)
     return float((cos**2 * xx + 2.0 * cos * sin * xy + sin**2 * yy).max())
+
+
+if not TYPE_CHECKING:
+    # A method within the class would let type checkers take any name.
+    FailureOrder.__getattr__ = missing_attribute

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from pyfret._core import with_error
+from pyfret._util.attributes import missing_attribute
 from pyfret._util.bounds import ESTIMATE
 from pyfret._util.lazy import xr
 from pyfret.fatigue.cycle_section import sections_of_cycle
@@ -218,3 +219,8 @@ def buckling_release(
     deflection = h * np.sqrt(4.0 / 3.0 * (s / critical - 1.0))
     release = h / (2.0 * plane) * (s - critical) * (s + 3.0 * critical)
     return Buckling(float(critical), float(deflection), float(release))
+
+
+if not TYPE_CHECKING:
+    # A method within the class would let type checkers take any name.
+    Buckling.__getattr__ = missing_attribute

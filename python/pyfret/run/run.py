@@ -287,14 +287,18 @@ class Run(OfRun):
         Returns
         -------
         xarray.Dataset
-            Over ``cycle``: ``dissipated`` [J], half ranges ``T`` [N] and ``delta`` [m],
-            ``energy_ratio``, ``sliding_ratio`` and ``status``. ``stiffness`` right after the
+            Over ``cycle``: ``dissipated`` [J], ``dissipated_sum`` of the cycles so far, half
+            ranges ``T`` [N] and ``delta`` [m], ``energy_ratio``, ``sliding_ratio`` and ``status``.
+            ``stiffness`` right after the
             reversals, ``secant_stiffness`` [N/m] and half the ``opening`` of the loop [m]. The
             branches that it spans. Of a line contact energies, forces and stiffness are per metre.
             ``dissipated_error`` and ``energy_ratio_error`` where the run has error bars. Its
             ``to_csv`` and ``to_excel`` write it as a table.
         """
-        return as_table(loops_of_cycles(self.dataset, self.scene, direction))
+        loops = loops_of_cycles(self.dataset, self.scene, direction)
+        total = loops.dissipated.cumsum("cycle")
+        about = {**loops.dissipated.attrs, "long_name": "energy dissipated in the cycles so far"}
+        return as_table(loops.assign(dissipated_sum=total.assign_attrs(about)))
 
     @quantities
     def regimes(self, *, direction: Literal["x", "y", "torsion"] = "x") -> list[str]:
@@ -316,19 +320,16 @@ class Run(OfRun):
                 ("increment",),
             ),
             "branches": lambda: (self.branches(), ("branch",)),
-            "loops": lambda: (self._summed_loops(), ("cycle",)),
+            "loops": lambda: (self._counted_loops(), ("cycle",)),
         }
         if self.dataset.attrs.get("error_bars"):
             tables["error_bars"] = lambda: (self.error_bars(), ("branch", "part"))
         return tables
 
-    def _summed_loops(self) -> xr.Dataset:
-        """Return the loops along the motion, counted from 1, with the energy so far."""
+    def _counted_loops(self) -> xr.Dataset:
+        """Return the loops along the motion, counted from 1."""
         loops = self.loops(direction=self.direction)
-        total = loops.dissipated.cumsum("cycle")
-        about = {**loops.dissipated.attrs, "long_name": "energy dissipated in the cycles so far"}
-        summed = loops.assign(dissipated_sum=total.assign_attrs(about))
-        return summed.assign_coords(cycle=np.arange(1, loops.sizes["cycle"] + 1))
+        return loops.assign_coords(cycle=np.arange(1, loops.sizes["cycle"] + 1))
 
     def __repr__(self) -> str:
         """Give the title and the size of the result."""

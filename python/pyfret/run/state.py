@@ -21,6 +21,13 @@ if TYPE_CHECKING:
 
 __all__ = ["State"]
 
+#: Scalars of a summary.
+SUMMARY = (
+    *("W", "T_x", "T_y", "M_z", "sigma_B", "delta_z", "delta_x", "delta_y", "phi_z"),
+    *("contact_radius", "half_width", "contact_area", "real_area", "stick_ratio"),
+    *("p_max", "q_max", "dissipated"),
+)
+
 
 class State(OfRun):
     """The contact at the end of one increment: its scalars and its fields.
@@ -130,7 +137,7 @@ class State(OfRun):
 
     def _elsewhere(self, name: str) -> dict[str, str]:
         """Return where a name is found that this object does not have."""
-        hints = {}
+        hints = {"save": "result.save(path) writes the run, snapshot.to_csv(path) its fields"}
         if name == "contact_radius":
             hints[name] = "of a line contact it is half_width"
         for variable_name, variable in self.dataset.variables.items():
@@ -138,6 +145,17 @@ class State(OfRun):
             if meaning.split(",")[0] == name:
                 hints[name] = f"it is called {variable_name}, {meaning}"
         return hints
+
+    def summary(self) -> str:
+        """Give the scalars of the increment that are not zero, with units and meanings."""
+        d = self.dataset
+        lines = [f"increment {int(d.increment)}, t = {in_words(float(d.t))}"]
+        for name in SUMMARY:
+            if name in d.variables and float(d[name]) != 0.0:
+                unit = d[name].attrs.get("units", "1")
+                value = in_words(float(d[name])) + ("" if unit == "1" else f" {unit}")
+                lines.append(f"{name} = {value}: {d[name].attrs.get('long_name', '')}")
+        return "\n".join(lines)
 
     def names(self) -> list[str]:
         """Names of all variables, in order."""

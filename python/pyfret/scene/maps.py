@@ -8,16 +8,19 @@ from __future__ import annotations
 
 import math
 from numbers import Integral
-from typing import TYPE_CHECKING, Literal, NamedTuple, NoReturn
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
 from pyfret._core import SurfaceMap
 from pyfret._util.attributes import missing_attribute
+from pyfret._util.csv_table import check_path
 from pyfret._util.numbers import length
 from pyfret.quantities import Length, as_number, quantities
 
 if TYPE_CHECKING:
+    import os
+
     import xarray as xr
     from numpy.typing import NDArray
 
@@ -88,9 +91,26 @@ class Statistics(NamedTuple):
     #: Pitch at which the slope was taken [m]: it grows as the pitch falls.
     S_dq_length: float
 
-    def __getattr__(self, name: str) -> NoReturn:
-        """Refuse a name that the parameters do not have, with the nearest one."""
+    def __getattr__(self, name: str) -> float:
+        """Return a parameter by its name in the standard, such as ``Sq``."""
+        word = f"S_{name[1:]}"
+        if name[:1] == "S" and word in self._fields:
+            return float(tuple.__getitem__(self, self._fields.index(word)))
         missing_attribute(self, name)
+
+
+def parameter(statistics: Statistics, key: object) -> Any:
+    """Return a parameter by its name, ``"S_q"`` or ``"Sq"``, or by its place."""
+    if not isinstance(key, str):
+        return tuple.__getitem__(statistics, key)  # type: ignore[call-overload]
+    try:
+        return getattr(statistics, key) if key[:1] == "S" else missing_attribute(statistics, key)
+    except AttributeError as error:
+        raise KeyError(str(error)) from None
+
+
+if not TYPE_CHECKING:
+    Statistics.__getitem__ = parameter
 
 
 def coordinates(surface: SurfaceMap) -> tuple[Field, Field]:
@@ -295,6 +315,17 @@ def spectrum(surface: SurfaceMap) -> xr.DataArray:
         coords={"q": ("q", np.asarray(q)[finite], {"units": "rad/m", "long_name": "wave number"})},
         name="psd",
         attrs={"units": "m^4", "long_name": "power spectral density of the heights"},
+    )
+
+
+def write_heights(surface: SurfaceMap, path: str | os.PathLike[str]) -> None:
+    """Write x, y and z of every point [m] as a table of text."""
+    x, y = coordinates(surface)
+    z = np.asarray(surface.values, dtype=float)
+    columns = [np.broadcast_to(values, z.shape).ravel() for values in (x, y, z)]
+    check_path(path)
+    np.savetxt(
+        path, np.column_stack(columns), "%.17g", ",", header="x [m],y [m],z [m]", comments=""
     )
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from html import unescape
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,7 +18,10 @@ if TYPE_CHECKING:
 
     from pyfret._core import Body, Branch, Grid
 
-__all__ = ["number", "path_html", "scene_html", "table"]
+__all__ = ["number", "path_html", "scene_html", "summarize_scene", "table"]
+
+#: A tag of HTML.
+TAG = re.compile("<[^>]+>")
 
 #: Loads and motions of a branch: what they are called, and their units; those whose unit is empty
 #: are lengths.
@@ -81,8 +86,8 @@ def body_rows(name: str, body: Body) -> list[list[str]]:
     return [*rows, ["", "substrate", material(body.substrate)]]
 
 
-def scene_html(scene: Scene) -> str:
-    """Return a scene as a table, and its load path as another."""
+def scene_rows(scene: Scene) -> list[list[str]]:
+    """Describe a scene: part, number and value of each row, in HTML."""
     grid, hertz = scene.grid, scene.hertz
     cells = f"{grid.nx} cells of {length(grid.dx)}"
     if not grid.plane_strain:
@@ -96,8 +101,27 @@ def scene_html(scene: Scene) -> str:
     if hertz is not None:
         size = f"a<sub>H</sub> = {number(1e6 * hertz.a)} µm, p<sub>H</sub> = "
         rows.append(["uncoated", "Hertz contact", f"{size}{number(1e-6 * hertz.p0)} MPa"])
+    return rows
+
+
+def summarize_scene(scene: Scene) -> str:
+    """Describe a scene and its load path as text, a line for each part and branch."""
+    lines = [scene.title] if scene.title else []
+    part = ""
+    for name, row, value in scene_rows(scene):
+        part = name or part
+        lines.append(f"{', '.join(filter(None, (part, row)))}: {value}")
+    for n, branch in enumerate(scene.path.branches):
+        count = "chosen" if branch.increments is None else str(branch.increments)
+        lines.append(f"branch {n}: to {given(branch, scene.grid)}; increments: {count}")
+    return unescape(TAG.sub("", "\n".join(lines).replace("<sub>", "_")))
+
+
+def scene_html(scene: Scene) -> str:
+    """Return a scene as a table, and its load path as another."""
+    rows = scene_rows(scene)
     title = f"<p><b>{html(scene.title)}</b></p>" if scene.title else ""
-    return title + table(["", "", ""], rows, words=True) + path_html(scene.path, grid)
+    return title + table(["", "", ""], rows, words=True) + path_html(scene.path, scene.grid)
 
 
 def plane_strain(grid: Grid) -> str:

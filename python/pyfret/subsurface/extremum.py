@@ -155,3 +155,4 @@ def refuse_attribute(self: Extremum, name: str) -> NoReturn:
 if not TYPE_CHECKING:
     # A method within the class would let type checkers take any name.
     Extremum.__getattr__ = refuse_attribute
+    Errors.__getattr__ = Place.__getattr__ = missing_attribute

@@ -36,6 +36,7 @@ ELSEWHERE = {
     name: "result.at(-1).stress(x=0.0, y=0.0) is the stress on the line below a point"
     for name in ("line", "profile", "depth_profile", "along_z")
 }
+ELSEWHERE["save"] = "it is written by stress.to_csv(path); result.save(path) writes the run"
 
 #: Numbers that follow from the components at a point, in the order of the columns of a table.
 EQUIVALENT = ("von_mises", "tresca", "s_1", "s_2", "s_3", "hydrostatic")
@@ -131,6 +132,11 @@ class Stress(Labelled, Figured):
             )
             lines.append(f"{name:11s} {1e-6 * float(largest):10.4g} MPa at {position}")
         return "\n".join(lines)
+
+    def _draw(self, *args: Any, **options: Any) -> Any:
+        """Draw the map of a section, or on a line below a point the curves over the depth."""
+        figure = "stress_map" if self.dataset[COMPONENTS[0]].ndim > 1 else "stress_along_depth"
+        return getattr(self.plot, figure)(*args, **options)
 
     def principal(self) -> xr.Dataset:
         """Return the principal values, the largest first, and unit vectors of their directions."""

@@ -8,6 +8,7 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._core import with_error
+from pyfret._util.attributes import missing_attribute
 from pyfret.quantities import quantities
 
 if TYPE_CHECKING:
@@ -94,3 +95,8 @@ def _border(places: list[tuple[float, bool]], edge: float, cell: float) -> tuple
     ((x, within),) = places
     nearest = float(np.clip(x, edge - FARTHEST * cell, edge + FARTHEST * cell))
     return nearest, (WITHIN if within and nearest == x else BETWEEN) * cell
+
+
+if not TYPE_CHECKING:
+    # A method within the class would let type checkers take any name.
+    Zone.__getattr__ = missing_attribute

@@ -250,6 +250,12 @@ impl Scene {
         self.with_path(path).doubts()
     }
 
+    /// Describe bodies, friction, grid, Hertz contact and load path, a line for each.
+    #[pyo3(signature = () -> "str")]
+    fn summary<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        from_python(slf.py(), "summarize_scene")?.call1((slf,))
+    }
+
     fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         from_python(slf.py(), "scene_html")?.call1((slf,))
     }

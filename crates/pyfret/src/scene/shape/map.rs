@@ -187,6 +187,22 @@ impl SurfaceMap {
         from_python(slf.py(), "spectrum")?.call1((slf,))
     }
 
+    /// Write the heights as a table of text: x, y and z of a point in m on each line.
+    ///
+    /// :func:`pyfret.read_surface` reads it. A file that is there is replaced.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : path
+    ///     The file.
+    #[pyo3(signature = (path: "str | PathLike[str]") -> "None")]
+    fn to_csv<'py>(
+        slf: &Bound<'py, Self>,
+        path: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        from_python(slf.py(), "write_heights")?.call1((slf, path))
+    }
+
     /// Draw the heights; return the axes.
     #[pyo3(signature = (ax: "Axes | None" = None) -> "Axes")]
     fn plot<'py>(
