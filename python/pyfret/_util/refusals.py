@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from types import BuiltinFunctionType
 from typing import Any
 
@@ -24,6 +24,8 @@ NOTE = re.compile(r"while processing '(\w+)'")
 VALUE = re.compile(r"[\"'\d(\[{<+-]|inf\b|nan\b|True\b|False\b|None\b")
 #: Refusal of Python to call a value.
 NOT_CALLABLE = re.compile(r"'(\w+)' object is not callable")
+#: Refusal of Python to go through a value.
+NOT_ITERABLE = re.compile(r"'(\w+)' object is not iterable")
 #: Classes of values that a refusal repeats.
 REPEATED = (str, float, int, list, tuple, set, dict, bytes, type, BuiltinFunctionType)
 #: Characters of a value that a refusal begins with.
@@ -101,6 +103,11 @@ def name_class(name: str, arguments: Mapping[str, Any], error: Exception) -> Typ
         for key, value in arguments.items():
             if type(value).__name__ == uncalled[1]:
                 return TypeError(f"{key}: must be a function, not of the class {uncalled[1]}")
+    unlisted = NOT_ITERABLE.fullmatch(str(error))
+    if unlisted is not None:
+        for key, value in arguments.items():
+            if type(value).__name__ == unlisted[1] and not isinstance(value, Iterable):
+                return TypeError(f"{key}: must be a sequence, not of the class {unlisted[1]}")
     wrong = [key for key, value in arguments.items() if is_of_wrong_class(value, error)]
     if not wrong:
         return None

@@ -52,6 +52,7 @@ class Stress(Labelled, Figured):
 
     figure = "stress_map"
 
+    @quantities
     def __init__(
         self,
         dataset: xr.Dataset,
