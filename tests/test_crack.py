@@ -1,10 +1,8 @@
-"""Cracks: below a contact and under plain histories; thresholds, arrest, the command line."""
+"""Cracks below a contact: intensities, growth, arrest, maps, the command line."""
 
 from __future__ import annotations
 
-import copy
 import json
-import pickle
 import re
 from typing import TYPE_CHECKING
 
@@ -53,31 +51,6 @@ def pulled(rig: fret.Result) -> fret.Result:
     return fret.solve(rig.scene, path, save="all", progress=False)
 
 
-def test_uniform_tension_on_a_normal_crack() -> None:
-    crack = fracture.Crack(legs=[(1e-4, 0.0)])
-    stress = np.zeros((2, len(crack.points), 6))
-    stress[0, :, 0] = 100e6
-    K = crack.intensity(stress)
-    assert K["K_I"][0] == pytest.approx(F_0 * 100e6 * np.sqrt(np.pi * 1e-4), rel=1e-7)
-    assert K["error"][0] < 1e-6 * K["K_I"][0]
-    stress[1, :, 0] = -50e6
-    closed = crack.intensity(stress, friction=0.3)
-    assert closed["K_I"][1] == 0.0
-    assert closed["open"].tolist() == pytest.approx([1.0, 0.0])
-    with pytest.raises(ValueError, match="must be"):
-        crack.intensity(stress[:, :-1])
-
-
-@pytest.mark.solves
-def test_cracks_are_values() -> None:
-    crack = fracture.Crack(legs=[(1e-4, 0.0), (2e-4, 0.3)], x=-1e-3)
-    for again in (pickle.loads(pickle.dumps(crack)), copy.copy(crack)):
-        assert np.array_equal(again.points, crack.points)
-    assert repr(crack) == "Crack(legs=[(0.0001, 0.0), (0.0002, 0.3)], x=-0.001)"
-    with pytest.raises(ValueError, match="length"):
-        fracture.Crack(legs=[(-1e-4, 0.0)])
-
-
 @pytest.mark.solves
 def test_the_worse_rim_is_the_trailing_one_and_short_cracks_stop(rig: fret.Result) -> None:
     cracks = rig.crack()
@@ -109,37 +82,6 @@ def test_bulk_tension_opens_a_crack_as_it_should(pulled: fret.Result) -> None:
     assert cracks.K_max[-1] == pytest.approx(K, rel=0.15)
 
 
-def test_thresholds() -> None:
-    haddad = fracture.Threshold(dK_th=2.1e6, dS_0=124e6)
-    assert haddad.a_0 == pytest.approx(91.29465388e-6)
-    assert haddad.range_at(1e-5) == pytest.approx(0.659821e6, rel=1e-5)
-    assert fracture.Threshold(2.1e6).range_at([1e-6, 1.0]).tolist() == [2.1e6, 2.1e6]
-    with pytest.raises(ValueError, match="dK_th"):
-        fracture.Threshold(-1.0)
-    unknown = fret.fatigue.Material("mine", [("s_D", 300e6, "a test")])
-    with pytest.raises(ValueError, match="dK_th"):
-        fracture.Threshold.from_material(unknown)
-    own_material = fret.fatigue.Material(
-        "mine", [("dK_th", 8e6, "a test"), ("s_D", 300e6, "another")]
-    )
-    assert fracture.Threshold.from_material(own_material) == fracture.Threshold(4e6, 300e6)
-
-
-def test_growth_constants_of_the_table_of_materials() -> None:
-    table = fret.fatigue.Materials()
-    alloy = fracture.Threshold.from_material(table["aluminium_4Cu"])
-    assert (alloy.dK_th, alloy.dS_0, alloy.walker) == (2.1e6, 124e6, None)
-    assert alloy.a_0 == pytest.approx(91.29465388e-6)
-    assert fracture.Paris.from_material(table["aluminium_7075_T6"]) == fracture.Paris(2.71e-11, 3.7)
-    with pytest.raises(ValueError, match=r"aluminium_4Cu.*paris_C"):
-        fracture.Paris.from_material(table["aluminium_4Cu"])
-    own_material = fret.fatigue.Material(
-        "mine", [("dK_th", 8e6, "a test"), ("s_D", 300e6, "one"), ("walker", 0.6, "another")]
-    )
-    assert fracture.Threshold.from_material(own_material).walker == 0.6
-    assert fracture.Threshold.from_material(own_material, walker=0.9).walker == 0.9
-
-
 @pytest.mark.slow
 def test_growth_below_a_contact(rig: fret.Result, pulled: fret.Result) -> None:
     """The path settles; a straight first crack of the path has the K of a straight crack."""
@@ -163,32 +105,6 @@ def test_growth_below_a_contact(rig: fret.Result, pulled: fret.Result) -> None:
     alone = rig.grow_crack(start=2e-5, end=2e-4, angle=0.4, tolerance=0.05)
     assert alone.dataset.attrs["end"] != "reached"
     assert alone.lengths[-1] < 1.9e-4
-
-
-@pytest.mark.solves
-def test_growth_under_a_plain_history() -> None:
-    """Under tension to and fro an inclined crack turns normal to it, and K_II vanishes."""
-    crack = fracture.Crack(legs=[(1e-4, np.radians(40))])
-
-    def tension(points: np.ndarray) -> np.ndarray:
-        stress = np.zeros((2, len(points), 6))
-        stress[0, :, 0] = 100e6
-        return stress
-
-    grown = crack.grow(tension, end=5e-4)
-    assert abs(grown["angle"][-1]) < 0.05
-    assert np.abs(grown["K_II"][0, 1:]).max() < 3e-3 * grown["K_I"][0, -1]
-    depth = grown["z"][-1]
-    assert grown["K_I"][0, -1] == pytest.approx(F_0 * 100e6 * np.sqrt(np.pi * depth), rel=2e-2)
-    assert grown["path_error"] < 1e-2 * 4e-4
-
-    def wrong(points: np.ndarray) -> np.ndarray:
-        raise KeyError("mine")
-
-    with pytest.raises(KeyError, match="mine"):
-        crack.grow(wrong, end=5e-4)
-    with pytest.raises(ValueError, match="direction"):
-        crack.grow(tension, end=5e-4, direction="down")  # type: ignore[arg-type]
 
 
 @pytest.mark.solves
@@ -344,31 +260,6 @@ def test_bulk_stress_moves_the_line_of_arrest_in_the_running_map(rig: fret.Resul
         fret.study.running_conditions(scene, W=[1e5], delta=[1e-6], sigma_B=1e8, executor=1)
 
 
-def test_kitagawa_of_uniform_tension() -> None:
-    lengths = np.geomspace(1e-6, 1e-3, 20)
-    K = 100e6 * np.sqrt(np.pi * lengths)
-    cracks = fracture.Cracks.from_arrays(lengths, K, 0 * K)
-    diagram = cracks.kitagawa(fracture.Threshold(2.1e6, 124e6))
-    assert diagram["load"].values == pytest.approx(100e6)
-    assert diagram.limit.values[0] == pytest.approx(124e6, rel=1e-2)
-    assert cracks.scaled(0.5).K_max == pytest.approx(0.5 * K)
-    assert fracture.ellipse_factor(1.0) == pytest.approx(0.590752, rel=1e-5)
-
-
-def test_films() -> None:
-    film = fret.Coating(STEEL, thickness=4e-6)
-    G = fracture.channel_release(film, STEEL, 1e9)
-    assert pytest.approx(1.975766 * 1e18 * 4e-6 * 0.91 / 210e9, rel=1e-5) == G
-    assert fracture.channel_release(film, STEEL, -1e9) == 0.0
-    stiff = fret.Coating(fret.Elastic(E=300.0 * STEEL.E, nu=0.3), thickness=1e-6)
-    with pytest.raises(ValueError, match="channel_release: no solution"):
-        fracture.channel_release(stiff, STEEL, 1e9)
-    K = fracture.film_intensity(film, STEEL, 2e-6, 1e9)
-    assert pytest.approx(F_0 * 1e9 * np.sqrt(np.pi * 2e-6), rel=1e-6) == K
-    with pytest.raises(ValueError, match="depth"):
-        fracture.film_intensity(film, STEEL, 5e-6, 1e9)
-
-
 @pytest.mark.solves
 def test_figures(rig: fret.Result) -> None:
     cracks, threshold = rig.crack(), fracture.Threshold(2e6, 200e6)
@@ -430,136 +321,6 @@ def test_command(pulled: fret.Result, tmp_path: Path, capsys: pytest.CaptureFixt
     assert commands.main(kinked) == 0
     assert commands.main([*grown, "--kink", "5e-5,20"]) == 2
     assert "--grow" in capsys.readouterr().err
-
-
-def test_what_becomes_of_a_crack_has_the_error_of_k() -> None:
-    """K falls as 1/l: it stops where dK (1 +- 5 %) is the threshold, and the margin has 5 %."""
-    lengths = np.geomspace(1e-5, 1e-3, 400)
-    plain = fracture.Cracks.from_arrays(lengths, 3e6 * (1e-4 / lengths), np.zeros(400))
-    error = (0.05 * plain.dataset.K_I).assign_attrs(units="Pa m^0.5")
-    cracks = fracture.Cracks(plain.dataset.assign(error=error))
-    threshold = fracture.Threshold(dK_th=3e6)
-    without, arrest = plain.arrest(threshold), cracks.arrest(threshold)
-    assert without.margin_error is None
-    assert without.lengths is None
-    assert "(estimate)" in without.describe()
-    assert arrest.verdict == "stops"
-    assert arrest.is_sure
-    assert arrest.length == pytest.approx(1e-4, rel=2e-3)
-    assert arrest.lengths == pytest.approx((0.95e-4, 1.05e-4), rel=2e-3)
-    assert arrest.margin_error == pytest.approx(0.05 * arrest.margin, rel=1e-6)
-    assert "100 (95 to 105) um" in arrest.describe()
-    assert "+-" in arrest.describe()
-    # At 1.02 times the threshold at its first length the error leaves two verdicts.
-    unsure = cracks.arrest(fracture.Threshold(dK_th=3e7 / 1.02))
-    assert (unsure.verdict, set(unsure.verdicts)) == ("stops", {"stops", "dormant"})
-    assert "not decided within the error of K: it may not grow" in unsure.describe()
-    assert "dK/dK_th 1.020 +- 0.051 at that length" in unsure.describe()
-    assert not unsure.is_sure
-    # The bar of the margin reaches over 1 where both of its ends grow: not decided.
-    sure = cracks.arrest(fracture.Threshold(dK_th=2.9e5))
-    assert (sure.verdict, sure.is_sure) == ("grows", False)
-    assert "not decided within the error of K" in sure.briefly()
-
-
-def bump(threshold: float = 1e6) -> fracture.Cracks:
-    """K that is above a threshold of 1 MPa m^0.5 between about 17 and 92 um, 0.5 to 600 um."""
-    lengths = np.geomspace(5e-6, 6e-4, 24)
-    K = 2.0 * threshold * np.exp(-(np.log(lengths / 4e-5) ** 2))
-    plain = fracture.Cracks.from_arrays(lengths, K, np.zeros(24))
-    error = (0.1 * plain.dataset.K_I).assign_attrs(units="Pa m^0.5")
-    return fracture.Cracks(plain.dataset.assign(error=error))
-
-
-@pytest.mark.parametrize(
-    ("start", "verdict", "words"),
-    [
-        (None, "dormant", ["from a length of 5 um, the shortest computed", "one of 17.4 um to 91"]),
-        (2e-5, "stops", ["from a length of 20 um", "one shorter than 17.4 um would not grow"]),
-        (1e-4, "dormant", ["from a length of 100 um", "one of 17.4 um to 91"]),
-    ],
-)
-def test_a_verdict_says_for_which_length_it_holds_and_what_others_do(
-    start: float | None, verdict: str, words: list[str]
-) -> None:
-    cracks, threshold = bump(), fracture.Threshold(dK_th=1e6)
-    arrest = cracks.arrest(threshold, start=start)
-    life = cracks.life(threshold, fracture.Paris(C=1e-11, m=3.0), start=start)
-    assert arrest.verdict == verdict
-    assert arrest.start == (5e-6 if start is None else start)
-    ((low, high),) = arrest.growing
-    assert (low, high) == pytest.approx((17.40e-6, 91.97e-6), rel=1e-3)
-    for word in words:
-        assert word in arrest.describe()
-    assert arrest.describe().startswith(arrest.briefly())
-    if verdict == "dormant":
-        assert arrest.length is None
-        assert arrest.tip == arrest.start
-        assert "stop at 91.97 um" in repr(life)
-        assert "no number of cycles" in life.describe()
-        assert "does not grow" in str(life.why_infinite())
-        # A crack of the length that it names does grow.
-        longer = cracks.arrest(threshold, start=1.01 * low)
-        assert longer.verdict == "stops"
-        assert longer.length == pytest.approx(high)
-    else:
-        assert arrest.tip == arrest.length == pytest.approx(high)
-        assert "cycles from 20 um to 91.97 um, where it stops" in life.describe()
-
-
-def test_growth_through_all_lengths_and_through_none() -> None:
-    cracks = bump()
-    none = cracks.arrest(fracture.Threshold(dK_th=1e7))
-    assert none.growing == ()
-    assert "nor would one of any length up to 600 um" in none.describe()
-    even = fracture.Cracks.from_arrays(cracks.lengths, np.full(24, 1e6), np.zeros(24))
-    every = even.arrest(fracture.Threshold(dK_th=2e4))
-    assert every.growing == ((5e-6, 6e-4),)
-    assert every.describe().startswith(
-        "grows through all lengths from a length of 5 um, the shortest computed, to 600 um; least"
-    )
-
-
-def test_an_error_as_large_as_the_number_is_told() -> None:
-    cracks = bump()
-    wide = cracks.dataset.assign(error=(1.2 * cracks.dataset.K_I).assign_attrs(units="Pa m^0.5"))
-    arrest = fracture.Cracks(wide).arrest(fracture.Threshold(dK_th=1e6), start=4e-5)
-    assert "the error of K is as large as dK" in arrest.describe()
-    assert not arrest.is_sure
-
-
-def test_what_rests_on_an_estimate_says_so() -> None:
-    """Threshold, length, cycles, figures: the word stands at each; a measured one has none."""
-    table = fret.fatigue.Materials()
-    estimated = fracture.Threshold.from_material(table["titanium_6Al4V"])
-    assert "dK_th" in str(estimated.estimate)
-    measured = fracture.Threshold.from_material(table["aluminium_4Cu"])
-    assert measured.estimate is None
-    cracks = bump(estimated.dK_th)
-    paris = fracture.Paris(C=1e-11, m=3.0)
-    for threshold, marked in ((estimated, True), (measured, False)):
-        arrest = cracks.arrest(threshold, start=4e-5)
-        life = cracks.life(threshold, paris, start=4e-5)
-        assert arrest.verdict == "stops"
-        for text in (arrest.describe(), arrest.briefly(), arrest.describe_length(), repr(life)):
-            assert ("estimate" in text) == marked, text
-        axes = (
-            fret.plot.crack_arrest(cracks, threshold, start=4e-5),
-            fret.plot.kitagawa(cracks, threshold),
-        )
-        for ax in axes:
-            legend = [text.get_text() for text in ax.get_legend().get_texts()]
-            assert any("(estimate)" in item for item in legend) == marked
-
-
-def test_too_few_lengths_are_refused_with_what_to_do() -> None:
-    lengths = [1e-5, 1e-4]
-    cracks = fracture.Cracks.from_arrays(lengths, [1e6, 2e6], [0.0, 0.0])
-    expected = r"number of lengths of the crack = 2: must be 4 or more.*more lengths.*default"
-    with pytest.raises(ValueError, match=expected):
-        cracks.arrest(fracture.Threshold(dK_th=1e6))
-    with pytest.raises(ValueError, match=expected):
-        cracks.life(fracture.Threshold(dK_th=1e6), fracture.Paris(C=1e-11, m=3.0))
 
 
 @pytest.mark.solves
