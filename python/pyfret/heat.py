@@ -280,21 +280,21 @@ def _on_coarser_cells(
     return wide, blocks, touches
 
 
-def _table(result: Run, found: dict[str, Any]) -> xr.Dataset:
+def _table(result: Run, columns: dict[str, Any]) -> xr.Dataset:
     """Make a dataset with coordinates, units and meanings of the temperature."""
     coords = {"body": [1, 2], "x": result.dataset.x, "y": result.dataset.y}
-    table = xr.Dataset(coords={**coords, "time": found["instants"]})
-    heat = found["heat"]
-    share = np.divide(found["flux"], heat, out=np.full_like(heat, np.nan), where=heat > 0.0)
-    flash = found["largest"] - found["mean"]
+    table = xr.Dataset(coords={**coords, "time": columns["instants"]})
+    heat = columns["heat"]
+    share = np.divide(columns["flux"], heat, out=np.full_like(heat, np.nan), where=heat > 0.0)
+    flash = columns["largest"] - columns["mean"]
     field, over_bodies = ("x", "y"), ("body", "x", "y")
     for name, dims, values, unit, meaning in (
-        ("steady", over_bodies, found["mean"], "K", "mean temperature over the cycle"),
-        ("largest", over_bodies, found["largest"], "K", "largest temperature of the cycle"),
+        ("steady", over_bodies, columns["mean"], "K", "mean temperature over the cycle"),
+        ("largest", over_bodies, columns["largest"], "K", "largest temperature of the cycle"),
         ("flash", over_bodies, flash, "K", "largest temperature less the mean"),
         ("heat", field, heat, "W/m^2", "mean frictional heat"),
         ("share", field, share, "1", "part of the mean heat that flows into body 1"),
-        ("peak", ("time",), found["peaks"], "K", "largest temperature of the surfaces"),
+        ("peak", ("time",), columns["peaks"], "K", "largest temperature of the surfaces"),
     ):
         table[name] = (dims, values, {"units": unit, "long_name": meaning})
     table.time.attrs.update(units="1", long_name="time over the period")

@@ -163,7 +163,7 @@ GOOD: dict[str, Any] = {
     },
     **{
         "force": 1.0,
-        "found": HEAT,
+        "temperatures": HEAT,
         "friction": 0.3,
         "frequency": 10.0,
         "grid": GRID,
@@ -347,7 +347,7 @@ OF: dict[str, dict[str, Any]] = {
         "wear": {"cycles": 10},
     },
     "plot.comparison": {"of": None},
-    "plot.temperature": {"found": HEAT},
+    "plot.temperature": {"temperatures": HEAT},
     "plot.temperature_map": {"of": "largest"},
     "plot.section_map": {"aspect": "auto", "values": STRESS.von_mises},
     "plot.stress_map": {"aspect": "auto", "stress": STRESS},

@@ -202,28 +202,28 @@ def _rows(cracks: Cracks, threshold: Threshold | None) -> list[dict[str, object]
     return rows
 
 
-def _verdict(cracks: Cracks, found: CrackArrest) -> dict[str, object]:
+def _verdict(cracks: Cracks, arrest: CrackArrest) -> dict[str, object]:
     """Return the row of the arrest; a missing number has its reason."""
     row: dict[str, object] = {
         "x": cracks.dataset.attrs["x"],
-        "verdict": found.verdict,
-        "start": found.start,
-        "length": found.length,
-        "growing": found.growing,
-        "at_start": found.at_start,
-        "at_start_error": found.at_start_error,
-        "margin": found.margin,
-        "margin_error": found.margin_error,
-        "margin_at": found.margin_at,
-        "lengths": found.lengths,
-        "verdicts": found.verdicts,
-        "is_sure": found.is_sure,
-        "told": found.describe(),
-        "notes": found.notes(),
+        "verdict": arrest.verdict,
+        "start": arrest.start,
+        "length": arrest.length,
+        "growing": arrest.growing,
+        "at_start": arrest.at_start,
+        "at_start_error": arrest.at_start_error,
+        "margin": arrest.margin,
+        "margin_error": arrest.margin_error,
+        "margin_at": arrest.margin_at,
+        "lengths": arrest.lengths,
+        "verdicts": arrest.verdicts,
+        "is_sure": arrest.is_sure,
+        "told": arrest.describe(),
+        "notes": arrest.notes(),
     }
-    if found.length is None:
-        row["length_why"] = found.briefly()
-    return row | ({"estimate": found.estimate} if found.estimate else {})
+    if arrest.length is None:
+        row["length_why"] = arrest.briefly()
+    return row | ({"estimate": arrest.estimate} if arrest.estimate else {})
 
 
 def _cycles(life: CrackLife) -> dict[str, object]:

@@ -71,22 +71,22 @@ class Values:
     One value holds for all places, several for one place each.
     """
 
-    def __init__(self, *each: Value) -> None:
-        self.each = each
+    def __init__(self, *kinds: Value) -> None:
+        self.kinds = kinds
 
     @property
     def unit(self) -> str:
         """Return the units of the numbers."""
-        return ", ".join(part.unit for part in self.each if part.unit)
+        return ", ".join(part.unit for part in self.kinds if part.unit)
 
     def __call__(self, text: str) -> list[float]:
         """The numbers."""
         parts = text.split(",")
-        if len(self.each) == 1:
-            return [self.each[0](part) for part in parts]
-        if len(parts) != len(self.each):
-            raise argparse.ArgumentTypeError(f"{text!r}: must be {len(self.each)} values")
-        return [of(part) for of, part in zip(self.each, parts, strict=True)]
+        if len(self.kinds) == 1:
+            return [self.kinds[0](part) for part in parts]
+        if len(parts) != len(self.kinds):
+            raise argparse.ArgumentTypeError(f"{text!r}: must be {len(self.kinds)} values")
+        return [of(part) for of, part in zip(self.kinds, parts, strict=True)]
 
 
 def takes(

@@ -65,8 +65,8 @@ def read_hints(call: Callable[..., Any], common: dict[str, Any]) -> dict[str, An
     hints: dict[str, Any] = {}
     for base in reversed(call.__mro__):
         names = Names(vars(inspect.getmodule(base)), common)
-        found = typing.get_type_hints(base, localns=names, include_extras=True)
-        hints |= {name: found[name] for name in vars(base).get("__annotations__", ())}
+        own_hints = typing.get_type_hints(base, localns=names, include_extras=True)
+        hints |= {name: own_hints[name] for name in vars(base).get("__annotations__", ())}
     return hints
 
 

@@ -322,7 +322,7 @@ class Search:
         )
 
     def with_posterior(
-        self, found: FitResult, x: NDArray[np.float64], count: int, seed: int
+        self, result: FitResult, x: NDArray[np.float64], count: int, seed: int
     ) -> FitResult:
         """Return the fit with samples of the posterior around x."""
         u, gauges = self.parted(x)
@@ -332,14 +332,14 @@ class Search:
         has_noise = all(model.noise is not None for model in self.models)
         before = self.solves
 
-        def solved(points: list[NDArray[np.float64]]) -> list[NDArray[np.float64]]:
+        def residuals_at(points: list[NDArray[np.float64]]) -> list[NDArray[np.float64]]:
             """Solve at points of the posterior; return their residuals."""
             places = [tuple(float(v) for v in point) for point in points]
             self.solved(places)
             return [self.weighted(self.known[point], gauges) for point in places]
 
         samples, error = application("pyfret.fit.posterior").sampled(
-            solved,
+            residuals_at,
             np.array(u),
             np.asarray(variance * np.linalg.pinv(jacobian.T @ jacobian)[:n, :n], np.float64),
             self.weighted(self.known[u], gauges) - residual,
@@ -353,7 +353,7 @@ class Search:
             for k, r in enumerate(self.ranges)
         }
         posterior = Posterior(values, error, self.solves - before)
-        return replace(found, posterior=posterior, solves=self.solves)
+        return replace(result, posterior=posterior, solves=self.solves)
 
     def profile(
         self,

@@ -29,14 +29,18 @@ FOUND = ("x", "y", "body", *NAMES)
 MADE = "temperatures, result.temperature(conductor1, conductor2, frequency=...)"
 
 
-def _degrees(found: xr.Dataset) -> str:
+def _degrees(temperatures: xr.Dataset) -> str:
     """Symbol of the temperature: a rise where the bodies are at 0 far away."""
-    return r"\Delta T" if not np.any(found.attrs["bulk"]) else "T"
+    return r"\Delta T" if not np.any(temperatures.attrs["bulk"]) else "T"
 
 
 @styled
 def temperature(
-    found: xr.Dataset, *, units: Units = "auto", width: Width | None = None, ax: Axes | None = None
+    temperatures: xr.Dataset,
+    *,
+    units: Units = "auto",
+    width: Width | None = None,
+    ax: Axes | None = None,
 ) -> Axes:
     """Mean and largest temperature of a cycle along x, through the hottest place, of both bodies.
 
@@ -44,7 +48,7 @@ def temperature(
 
     Parameters
     ----------
-    found : xarray.Dataset
+    temperatures : xarray.Dataset
         From :meth:`Result.temperature`.
     units : "auto", "dimensionless" or "SI"
         Of the lengths: over a_H (default where there is one), or in um.
@@ -53,10 +57,10 @@ def temperature(
     ax : matplotlib Axes, optional
         Where to draw.
     """
-    must_hold(found, "found", FOUND, MADE)
+    must_hold(temperatures, "temperatures", FOUND, MADE)
     ax = axes(ax)
-    length = scales(found.attrs, units).length
-    cut = found.sel(y=found.attrs["maximum_y"])
+    length = scales(temperatures.attrs, units).length
+    cut = temperatures.sel(y=temperatures.attrs["maximum_y"])
     for name, shown, colour in (("largest", "largest", "C1"), ("steady", "mean", "C0")):
         first, second = (cut[name].sel(body=body).values for body in (1, 2))
         # One line where both are as hot.
@@ -68,13 +72,13 @@ def temperature(
             ax.plot(cut.x / length.value, values, color=colour, linestyle=style, label=label)
     ax.legend()
     ax.set_xlabel(length.label("x"))
-    ax.set_ylabel(rf"${_degrees(found)}$ [K]")
+    ax.set_ylabel(rf"${_degrees(temperatures)}$ [K]")
     return ax
 
 
 @styled
 def temperature_map(
-    found: xr.Dataset,
+    temperatures: xr.Dataset,
     *,
     of: Literal["steady", "largest", "flash"] = "largest",
     body_number: int = 2,
@@ -87,7 +91,7 @@ def temperature_map(
 
     Parameters
     ----------
-    found, units, width, ax
+    temperatures, units, width, ax
         As in :func:`temperature`.
     of : "steady", "largest" or "flash"
         Mean or largest temperature of the cycle, or the difference of both.
@@ -100,16 +104,19 @@ def temperature_map(
         raise ValueError(f"of = {of!r}: must be {', '.join(map(repr, NAMES))}")
     if body_number not in (1, 2):
         raise ValueError(f"body_number = {body_number}: must be 1 or 2")
-    must_hold(found, "found", FOUND, MADE)
+    must_hold(temperatures, "temperatures", FOUND, MADE)
     ax = axes(ax, square=True)
-    length = scales(found.attrs, units).length
-    x, y = found.x.values / length.value, found.y.values / length.value
+    length = scales(temperatures.attrs, units).length
+    x, y = temperatures.x.values / length.value, temperatures.y.values / length.value
     half_x, half_y = (x[1] - x[0]) / 2, (y[1] - y[0]) / 2
     extent = (x[0] - half_x, x[-1] + half_x, y[0] - half_y, y[-1] + half_y)
-    values = found[of].sel(body=body_number).values
+    values = temperatures[of].sel(body=body_number).values
     look = {"cmap": colour_map("warm"), "aspect": ax.get_aspect(), **image}
     drawn = ax.imshow(values.T, origin="lower", extent=extent, **look)
-    hottest = found.attrs["maximum_x"] / length.value, found.attrs["maximum_y"] / length.value
+    hottest = (
+        temperatures.attrs["maximum_x"] / length.value,
+        temperatures.attrs["maximum_y"] / length.value,
+    )
     draw_cross(ax, *hottest)
     ax.set_xlabel(length.label("x"))
     ax.set_ylabel(length.label("y"))

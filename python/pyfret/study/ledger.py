@@ -77,12 +77,12 @@ class Ledger:
         Status of each point, and checksums of its values in the arrays.
     """
 
-    def __init__(self, place: Path) -> None:
-        self.place = place
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
         try:
-            lines = (place / FILE).read_bytes().splitlines(keepends=True)
+            lines = (folder / FILE).read_bytes().splitlines(keepends=True)
         except OSError as error:
-            raise StoreError(f"{place}: the file {FILE}: {error.strerror}") from error
+            raise StoreError(f"{folder}: the file {FILE}: {error.strerror}") from error
         #: Bytes of the lines that are whole.
         self.length = 0
         entries: list[Any] = []
@@ -92,10 +92,10 @@ class Ledger:
             except ValueError as error:
                 if n + 1 == len(lines) and not line.endswith(b"\n") and entries:
                     break
-                raise StoreError(f"{place}: the file {FILE}, line {n + 1}: {error}") from error
+                raise StoreError(f"{folder}: the file {FILE}, line {n + 1}: {error}") from error
             self.length += len(line)
         if not entries:
-            raise StoreError(f"{place}: the file {FILE} is empty")
+            raise StoreError(f"{folder}: the file {FILE} is empty")
         self.layout = int(entries[0])
         self.points: dict[int, tuple[int, dict[str, int]]] = {
             int(n): (int(status), sums) for n, status, sums in entries[1:]
@@ -104,16 +104,16 @@ class Ledger:
         self.last = int(entries[-1][0]) if len(entries) > 1 else None
 
     @staticmethod
-    def begin(place: Path, layout: int) -> None:
+    def begin(folder: Path, layout: int) -> None:
         """Write the ledger of a study without points."""
-        (place / FILE).write_bytes(write_line(layout))
+        (folder / FILE).write_bytes(write_line(layout))
 
     def add(
         self, n: int, status: int, values: dict[str, xr.Variable], attrs: dict[str, str]
     ) -> None:
         """Record that the n-th point has been written, to variables of these attributes."""
         sums = {name: checksum(variable, attrs.get(name, "")) for name, variable in values.items()}
-        with (self.place / FILE).open("r+b") as file:
+        with (self.folder / FILE).open("r+b") as file:
             file.truncate(self.length)
             file.seek(self.length)
             line = write_line([n, status, sums])
@@ -131,7 +131,7 @@ class Ledger:
         """
         if layout != self.layout:
             raise StoreError(
-                f"{self.place}: its coordinates or attributes are not those that were written"
+                f"{self.folder}: its coordinates or attributes are not those that were written"
             )
         sizes = {dim: dataset.sizes[dim] for dim in point_dims}
         status, attrs = dataset["status"].values.ravel(), attributes(dataset)
@@ -139,23 +139,23 @@ class Ledger:
             indices = dict(zip(sizes, np.unravel_index(n, tuple(sizes.values())), strict=True))
             where = ", ".join(f"{dim} {int(i)}" for dim, i in indices.items())
             if status[n] != code and n != self.last:
-                raise StoreError(f"{self.place}: status of point {where}: is not what was written")
+                raise StoreError(f"{self.folder}: status of point {where}: is not what was written")
             if code in SOLVED and not dataset["seconds"].values.ravel()[n] > 0.0:
                 # Times differ from run to run and have no checksum. A solved point has one.
                 raise StoreError(
-                    f"{self.place}: seconds of point {where}: a file of seconds is missing"
+                    f"{self.folder}: seconds of point {where}: a file of seconds is missing"
                 )
             for name, crc in sums.items():
                 if name not in dataset:
-                    raise StoreError(f"{self.place}: {name}: is missing")
+                    raise StoreError(f"{self.folder}: {name}: is missing")
                 value = dataset[name].variable.isel({dim: int(i) for dim, i in indices.items()})
                 if checksum(value, attrs[name]) != crc:
                     raise StoreError(
-                        f"{self.place}: {name} of point {where}: is not what was written; a file "
+                        f"{self.folder}: {name} of point {where}: is not what was written; a file "
                         f"of {name} is missing or damaged"
                     )
         unlisted = [n for n in np.flatnonzero(status) if int(n) not in self.points]
         if unlisted:
             raise StoreError(
-                f"{self.place}: point {unlisted[0]} has a status and no line in the file {FILE}"
+                f"{self.folder}: point {unlisted[0]} has a status and no line in the file {FILE}"
             )
