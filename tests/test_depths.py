@@ -10,6 +10,7 @@ import pytest
 
 import pyfret as fret
 from conftest import R, W, sphere_on_flat
+from pyfret.subsurface.tensor import LABELS
 
 STEEL = fret.Elastic(E=210e9, nu=0.3)
 HERTZ = fret.reference.hertz(R=R, bodies=(STEEL, STEEL), W=W)
@@ -144,3 +145,28 @@ def test_a_measure_that_is_negative_everywhere_has_no_largest_value(place: float
     with pytest.raises(ValueError, match=r"s_3 is negative .* no largest value"):
         stress.maximum("s_3")
     assert stress.maximum("von_mises").value > 0.0
+
+
+@pytest.mark.solves
+def test_no_largest_value_is_below_a_sample_away_from_the_rim() -> None:
+    """Samples of s_2 beside the rim are higher than its largest value, which lies deep."""
+    steel, mu = fret.Elastic(E=159e9, nu=0.3), 0.32
+    a = fret.reference.hertz(R=5e-3, bodies=(steel, steel), W=30.0).a
+    scene = fret.Scene(
+        body1=fret.Body(steel, shape=fret.Sphere(R=5e-3)),
+        body2=fret.Body(steel),
+        friction=mu,
+        grid=fret.Grid.centred(width=3.6 * a, n=36),
+        path=fret.LoadPath.start().normal(30.0).force(T_y=0.5 * mu * 30.0, increments=4),
+    )
+    stress = fret.solve(scene, progress=False).at(-1).stress()
+    deep = stress.dataset.z.values > 0.2 * a
+    for measure in LABELS:
+        if measure.startswith("interface"):
+            continue
+        try:
+            top = stress.maximum(measure)
+        except ValueError:
+            continue
+        highest = float(stress.measure(measure).values[deep].max())
+        assert top.value >= highest - 1e-9 * abs(highest), measure

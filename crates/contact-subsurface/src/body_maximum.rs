@@ -14,8 +14,8 @@ use ndarray::{Array1, Array2, Array3, ArrayRef, ArrayView2, Axis, Dimension};
 
 use super::climb::Start;
 use super::depth::interface_mask;
-use super::maximum::{top_of_line, top_of_plane};
-use super::search::{Search, select_hills};
+use super::maximum::{Top, top_of_line, top_of_plane};
+use super::search::{Search, hills_left_out, select_hills};
 use super::{Border, Depth, Extremum, Line, Measure, Point, Probe, Section, Side, Slices, States};
 use contact_core::Error;
 use contact_core::scene::{Body, Grid};
@@ -272,6 +272,17 @@ impl BodySearch {
             nearest.map_or(f64::NAN, |n| samples[(0, n)])
         };
         let mut largest = search.ascend(&probe, starts, &reached, layer, &near)?;
+        if let Some(value) = largest.map(|top| top.value) {
+            let free = self.beside.is_some();
+            let left_out =
+                |line: &LineSamples| line.starts_left_out(search, &probe, (layer, free), value);
+            let others: Vec<Start> = sampled.iter().flat_map(left_out).collect();
+            if !others.is_empty() {
+                let other = search.ascend(&probe, others, &reached, layer, &near)?;
+                let tops = largest.into_iter().chain(other);
+                largest = tops.max_by(|a, b| a.value.total_cmp(&b.value));
+            }
+        }
         if let Some(Beside { on_line, .. }) = &self.beside {
             // A narrow ridge along the section is followed on it to its top.
             let mut starts: Vec<Start> = Vec::new();
@@ -367,11 +378,30 @@ impl LineSamples {
         layer: Option<usize>,
         free: bool,
     ) -> Vec<Start> {
-        let rows = self.values.rows().into_iter();
-        let tops: Vec<_> = rows.map(|row| top_of_line(&row, &self.along)).collect();
-        let hills = select_hills(probe, &tops, (&self.depths, &self.on_interface), layer);
+        let depths = (&self.depths[..], &self.on_interface[..]);
+        let hills = select_hills(probe, &self.tops(), depths, layer);
         let starts_on_hill = |hill| search.starts(self.line, hill, &self.along, free);
         hills.iter().flat_map(starts_on_hill).collect()
+    }
+
+    /// Starting points on the other hills whose samples exceed a `value`.
+    fn starts_left_out(
+        &self,
+        search: &Search,
+        probe: &Probe,
+        (layer, free): (Option<usize>, bool),
+        value: f64,
+    ) -> Vec<Start> {
+        let depths = (&self.depths[..], &self.on_interface[..]);
+        let hills = hills_left_out(probe, &self.tops(), depths, layer, value);
+        let starts_on_hill = |hill| search.starts(self.line, hill, &self.along, free);
+        hills.iter().flat_map(starts_on_hill).collect()
+    }
+
+    /// The highest sample of each depth.
+    fn tops(&self) -> Vec<Option<Top<1>>> {
+        let rows = self.values.rows().into_iter();
+        rows.map(|row| top_of_line(&row, &self.along)).collect()
     }
 
     /// Adds deeper and deeper samples, while the largest values lie at the deepest depth and rise by more than

@@ -465,6 +465,44 @@ fn is_on_interfaces(probe: &Probe) -> bool {
 pub(super) fn select_hills<const D: usize>(
     probe: &Probe,
     tops: &[Option<Top<D>>],
+    depths: (&[Depth], &[bool]),
+    layer: Option<usize>,
+) -> Vec<Hill<D>> {
+    let mut hills = searched_hills(probe, tops, depths, layer);
+    hills.truncate(count_selected(&hills));
+    hills
+}
+
+/// The hills that [`select_hills`] leaves out though their samples exceed `value`: samples beside a rim
+/// may be higher than what the ascent from them reaches.
+pub(super) fn hills_left_out<const D: usize>(
+    probe: &Probe,
+    tops: &[Option<Top<D>>],
+    depths: (&[Depth], &[bool]),
+    layer: Option<usize>,
+    value: f64,
+) -> Vec<Hill<D>> {
+    let mut hills = searched_hills(probe, tops, depths, layer);
+    hills.drain(..count_selected(&hills));
+    hills.retain(|hill| hill.top.value > value);
+    hills.truncate(HILLS);
+    hills
+}
+
+/// How many of the hills, the highest first, are ascended.
+fn count_selected<const D: usize>(hills: &[Hill<D>]) -> usize {
+    let highest = hills.first().map_or(0.0, |hill| hill.top.value);
+    let spread = highest.abs() * (1.0 - LOWEST);
+    let near_highest = hills
+        .iter()
+        .filter(|hill| hill.top.value >= highest - spread);
+    near_highest.count().min(HILLS)
+}
+
+/// All hills in one layer or in all, the highest first.
+fn searched_hills<const D: usize>(
+    probe: &Probe,
+    tops: &[Option<Top<D>>],
     (depths, on_interface): (&[Depth], &[bool]),
     layer: Option<usize>,
 ) -> Vec<Hill<D>> {
@@ -476,12 +514,7 @@ pub(super) fn select_hills<const D: usize>(
     let searched_top = |(k, top): (usize, &Option<Top<D>>)| top.filter(|_| is_searched(k));
     let tops: Vec<_> = tops.iter().enumerate().map(searched_top).collect();
     // Interfaces are not samples of a continuous field: no interpolation between two of them.
-    let mut hills = find_hills(&tops, depths, !on_interfaces_only);
-    let highest = hills.first().map_or(0.0, |hill| hill.top.value);
-    let spread = highest.abs() * (1.0 - LOWEST);
-    hills.retain(|hill| hill.top.value >= highest - spread);
-    hills.truncate(HILLS);
-    hills
+    find_hills(&tops, depths, !on_interfaces_only)
 }
 
 /// A probe on a section, shape (depths, places), and its largest value.
