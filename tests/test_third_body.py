@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pickle
-import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -12,6 +11,7 @@ import numpy as np
 import pytest
 
 import pyfret as fret
+from pyfret.report import content
 
 AIR = fret.wear.Air(distance=1.753e-3, power_density=24e3, power_exponent=0.94)
 BED = fret.wear.DebrisBed(kappa=4.444e-3, starved_yield=0.75)
@@ -131,21 +131,6 @@ def test_friction_rises_as_a_film_is_worn_through() -> None:
     assert worn.cycles_to(mu=0.6).beyond == pytest.approx(3e5)
     assert worn.cycles_to(mu=0.15) == 0.0
     assert "mean coefficient of friction" in worn.summary()
-    cycles = worn.cycles_to(mu=0.16)
-    assert worn.cycles_to(part_of_coating=1.0) <= cycles < 3e5
-    assert worn.cycles_to(mu=0.6).beyond == pytest.approx(3e5)
-    assert worn.cycles_to(mu=0.15) == 0.0
-    assert "mean coefficient of friction" in worn.summary()
-    cycles = worn.cycles_to(mu=0.16)
-    assert worn.cycles_to(part_of_coating=1.0) <= cycles < 3e5
-    assert worn.cycles_to(mu=0.6).beyond == pytest.approx(3e5)
-    assert worn.cycles_to(mu=0.15) == 0.0
-    assert "mean coefficient of friction" in worn.summary()
-    cycles = worn.cycles_to(mu=0.16)
-    assert worn.cycles_to(part_of_coating=1.0) <= cycles < 3e5
-    assert worn.cycles_to(mu=0.6).beyond == pytest.approx(3e5)
-    assert worn.cycles_to(mu=0.15) == 0.0
-    assert "mean coefficient of friction" in worn.summary()
     # A single layer has no border that a cell could cut.
     bare = np.asarray(worn.depth2) > 2e-6
     assert np.all(np.asarray(worn.mu_error)[~bare] < 1e-3)
@@ -159,7 +144,7 @@ def test_friction_rises_as_a_film_is_worn_through() -> None:
     assert energy == pytest.approx(float(worn.dissipated[-1]), rel=1e-9)
 
 
-@pytest.mark.solves
+@pytest.mark.slow
 def test_a_run_with_friction_of_the_surface_goes_on_with_the_same_bytes(tmp_path: Path) -> None:
     def substrate(pressed: Any, slip: Any, dissipated: Any, worn: Any, cycles: float) -> Any:
         return 3e-15 * dissipated
@@ -169,8 +154,13 @@ def test_a_run_with_friction_of_the_surface_goes_on_with_the_same_bytes(tmp_path
             raise RuntimeError("the power is off")
         return 3e-15 * dissipated
 
-    scene = film(friction=fret.Friction(layers=[0.15, 0.7], bed=(0.4, 1e-6)))
-    options: dict[str, Any] = {"bed": fret.wear.DebrisBed(kappa=1e-3), "cycling": "sliding"}
+    grid = fret.Grid.strip(extent=1.2e-3, n=32)
+    scene = film(grid=grid)
+    options: dict[str, Any] = {
+        "bed": fret.wear.DebrisBed(kappa=1e-3),
+        "cycling": "sliding",
+        "jumps": 4,
+    }
     store = tmp_path / "film.zarr"
     with pytest.raises(fret.errors.ArgumentError, match="the power is off"):
         wear_film(scene, body2=[FILM_LAWS[0], stops], out=store, **options)
@@ -275,10 +265,9 @@ def test_scar_bed_and_aerated_zone_are_drawn_and_reported(tmp_path: Path) -> Non
     worn = fret.wear.solve(cylinder(48), progress=False, **settings(jumps=2))
     page = tmp_path / "run.html"
     fret.solve(cylinder(48), progress=False).report(page, wear=worn)
-    text = page.read_text(encoding="utf-8")
-    assert "scar, debris and oxygen" in text
-    assert re.search(r'"name": ?"debris"', text)
-    assert re.search(r'"name": ?"aerated share \[1\]"', text)
+    assert "scar, debris and oxygen" in page.read_text(encoding="utf-8")
+    lines = content.wear(worn)["third"]
+    assert [line["name"] for line in lines] == ["debris", "aerated share [1]"]
     ax = fret.plot.third_body(worn)
     labels = {text.get_text() for text in ax.get_legend().get_texts()}
     expected = {"worn off both bodies", "debris", "growth of the gap", "oxygen arrives"}

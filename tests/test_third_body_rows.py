@@ -22,8 +22,6 @@ ROWS = json.loads(
 )
 #: Difference from the closed form, over it.
 WITHIN = 5e-3
-#: The same of the mean friction on 240 cells, which are film or substrate as a whole.
-MU_WITHIN = 1.5e-2
 MU, STROKE = 0.5, 2e-6
 
 
@@ -89,7 +87,7 @@ def test_friction_follows_a_film_that_is_worn_through() -> None:
         body1=fret.Body(stiff, shape=fret.Cylinder(R=get["R"])),
         body2=fret.Body(stiff, coatings=fret.Coating(stiff, thickness=get["t"])),
         friction=fret.Friction(layers=[exact["mu_of_contact"][0], get["mus"]]),
-        grid=fret.Grid.strip(extent=2.4e-3, n=240),
+        grid=fret.Grid.strip(extent=2.4e-3, n=320),
         path=slides(get["W"], get["delta"]),
     )
     worn = wear(
@@ -98,7 +96,8 @@ def test_friction_follows_a_film_that_is_worn_through() -> None:
         body2=laws,
         cycling="sliding",
         worn_through="go_on",
-        tolerance=3e-3,
+        # The mean friction of a jump has the error of its length: 1 % with 3e-3.
+        tolerance=1e-3,
     )
     through = worn.cycles_to(part_of_coating=1.0)
     assert through == pytest.approx(exact["worn_through_at"], rel=WITHIN)
@@ -112,4 +111,4 @@ def test_friction_follows_a_film_that_is_worn_through() -> None:
         last = 1.05 * N if 1.01 * exact["worn_through_at"] < N else N
         near = (ends > 0.95 * N) & (ends - length < last)
         mean = np.average(mu[near], weights=length[near])
-        assert mean == pytest.approx(exact["mu_of_contact"][n], rel=MU_WITHIN)
+        assert mean == pytest.approx(exact["mu_of_contact"][n], rel=WITHIN)

@@ -8,7 +8,7 @@ use super::catalogue::FieldView;
 pub(super) type Scalar = (&'static str, &'static str, &'static str, fn(&Jump) -> f64);
 
 /// Every scalar over `jump`.
-pub(super) const SCALARS: [Scalar; 27] = [
+pub(super) const SCALARS: [Scalar; 28] = [
     ("cycles", "1", "cycles at the end of the jump", |j| j.cycles),
     ("length", "1", "cycles that the jump is long", |j| j.length),
     ("volume1", "m^3", "volume that body 1 has lost", |j| {
@@ -82,6 +82,12 @@ pub(super) const SCALARS: [Scalar; 27] = [
         "1",
         "mean coefficient of friction in the jump: energy over the integral of pressure over slip",
         |j| j.mu,
+    ),
+    (
+        "mu_error",
+        "1",
+        "error of the mean coefficient of friction by jump and cells, over it",
+        |j| j.mu_error,
     ),
     ("p_max", "Pa", "largest pressure", |j| j.p_max),
     ("contact_area", "m^2", "area of the contact", |j| {

@@ -14,6 +14,8 @@ pub(super) struct Attempt {
     pub(super) error: f64,
     /// Root mean square of the change of the pressure at the end, over the pressure.
     pub(super) pressure_error: f64,
+    /// Change of the mean coefficient of friction by extrapolation, over it.
+    pub(super) mu_error: f64,
     /// Difference of the worn depths of the two halves and of the whole jump \[m\].
     pub(super) correction: [Vec<f64>; 2],
 }
@@ -29,6 +31,7 @@ impl Attempt {
             loss,
             error: 0.0,
             pressure_error: 0.0,
+            mu_error: 0.0,
             correction: none,
         })
     }
@@ -55,7 +58,9 @@ impl Attempt {
             let pairs = halves.depth[b].iter().zip(&whole.depth[b]);
             pairs.map(|(halves, whole)| halves - whole).collect()
         });
+        let mu = halves.mean_mu(1.0);
         let (loss, error) = halves.extrapolated(&whole, worn);
+        let mu_error = (loss.mean_mu(mu) / mu - 1.0).abs();
         // The second-order correction of a first half is half of the correction of the whole jump.
         let half = [0, 1].map(|b| {
             let cells = one_half[b].iter().zip(&moved[b]).zip(&loss.depth[b]);
@@ -69,6 +74,7 @@ impl Attempt {
             half,
             error,
             pressure_error,
+            mu_error,
             correction: moved,
         })
     }

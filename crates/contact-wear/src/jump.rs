@@ -40,6 +40,10 @@ pub struct Jump {
     /// pressure over the slip.
     #[serde(default)]
     pub mu: f64,
+    /// Estimated error of the mean coefficient of friction over it: by the jump, and by the borders of bare
+    /// layers within their cells.
+    #[serde(default)]
+    pub mu_error: f64,
     /// Largest pressure at the end \[Pa\].
     pub p_max: f64,
     /// Area of the contact at the end \[m^2\].

@@ -31,6 +31,7 @@ mod law;
 mod loss;
 mod marched;
 mod method;
+mod mixed_cells;
 mod model;
 mod on_grid;
 mod outward;

@@ -94,6 +94,8 @@ pub(crate) struct Marched {
     has_law: bool,
     /// The coefficient of a fresh surface.
     pub(crate) nominal_mu: f64,
+    /// Error of the mean coefficient by the cells, over it.
+    pub(crate) mu_error: f64,
 }
 
 impl Marched {
@@ -167,6 +169,7 @@ impl Marched {
             surface: SurfaceFriction::new(&scene),
             has_law: scene.friction.law.is_some(),
             nominal_mu: scene.friction.mu,
+            mu_error: 0.0,
             state,
             wear: wear.clone(),
             pressing,
@@ -201,6 +204,14 @@ impl Marched {
             self.aerated = fields?.0.aerated;
         }
         self.cycle_aerated.clone_from(&self.aerated);
+        self.mu_error = self.surface.as_ref().map_or(0.0, |surface| {
+            let cycled = &self.state.cycled;
+            let cells = cycled.dissipated.iter().zip(&cycled.pressure_times_slip);
+            let mu = |(energy, way): (&f64, &f64)| if *way > 0.0 { energy / way } else { 0.0 };
+            let mu: Vec<f64> = cells.map(mu).collect();
+            let (rows, ways) = (self.pressing.rows(), &cycled.pressure_times_slip);
+            surface.error(rows, ways, &mu, &worn.depth[surface.body])
+        });
         Ok(())
     }
 

@@ -64,8 +64,9 @@ pub(crate) struct CycleOutput<'a> {
     pub(crate) stick: Option<&'a [bool]>,
     pub(crate) stick_ratio: f64,
     pub(crate) dissipated_per_cycle: f64,
-    /// Mean coefficient of friction.
+    /// Mean coefficient of friction, and its error by the cells, over it.
     pub(crate) mu: f64,
+    pub(crate) mu_error: f64,
     /// delta_x, T_x, delta_y, T_y along the loop \[m, N\].
     pub(crate) corners: Vec<[f64; 4]>,
 }
@@ -192,6 +193,7 @@ impl Model {
                     stick_ratio: 0.0,
                     dissipated_per_cycle: s.dissipated_per_cycle(),
                     mu: s.mean_mu(),
+                    mu_error: s.mu_error,
                     corners: s
                         .corners
                         .iter()
@@ -217,6 +219,7 @@ impl Model {
                     } else {
                         m.nominal_mu
                     },
+                    mu_error: m.mu_error,
                     corners: cycled.corners.clone(),
                 }
             }

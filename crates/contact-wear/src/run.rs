@@ -12,6 +12,7 @@ use super::events::EventKind;
 use super::events::{crossing, events, past_events, with_error};
 use super::jump::Jump;
 use super::loss::Worn;
+use super::mixed_cells;
 use super::model::Model;
 use super::on_grid;
 use super::passage::Passage;
@@ -403,12 +404,14 @@ impl WearRun {
         }
         let area = self.model.pressing().cell_area();
         let output = self.model.output();
+        let grown = worn.deepest() - self.state.worn.deepest();
         let by_spots = if output.stick_ratio > 0.0 {
             0.0
         } else {
-            let grown = worn.deepest() - self.state.worn.deepest();
             spots::depth_error(grown, output.p, self.model.pressing().rows())
         };
+        let mixed = mixed_cells::depth_error(&self.wear.bodies, output.p, output.aerated);
+        let by_spots = by_spots.hypot(mixed * grown.max(0.0));
         let by_border = self.model.border_error(&worn)?;
         let state = &mut self.state;
         for (sum, moved) in state.corrections.iter_mut().zip(&tried.correction) {
@@ -440,6 +443,7 @@ impl WearRun {
             p_max_error: seen.p_max_error.hypot(tried.pressure_error),
             retries,
             mu: tried.loss.mean_mu(seen.mu),
+            mu_error: seen.mu_error.hypot(tried.mu_error),
             volume_halfway: middle.each_ref().map(|w| w.iter().sum::<f64>() * area),
             depth_halfway: middle
                 .each_ref()

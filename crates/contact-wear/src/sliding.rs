@@ -76,6 +76,8 @@ pub(crate) struct Sliding {
     /// Coefficient of the cells of the body whose layers count, before its dependence on cycles; empty
     /// where it is uniform.
     mu_of_cells: Vec<f64>,
+    /// Error of the mean coefficient by the cells, over it.
+    pub(crate) mu_error: f64,
     /// Cycles done.
     cycles: f64,
     /// Gap between the unworn surfaces at the places \[m\].
@@ -147,6 +149,7 @@ impl Sliding {
             history: scene.friction.history.clone(),
             surface: SurfaceFriction::new(scene),
             mu_of_cells: Vec::new(),
+            mu_error: 0.0,
             cycles: worn.cycles,
             h,
             third_body,
@@ -201,6 +204,11 @@ impl Sliding {
             }
             None => Vec::new(),
         };
+        self.mu_error = self.surface.as_ref().map_or(0.0, |surface| {
+            let ways = &self.integrate(&self.p)[surface.body];
+            let rows = self.pressing.rows();
+            surface.error(rows, ways, &self.mu_of_cells, &worn.depth[surface.body])
+        });
         Ok(())
     }
 

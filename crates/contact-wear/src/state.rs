@@ -34,7 +34,8 @@ pub struct WearState {
     pub(crate) next: f64,
     /// Sum over all jumps of the corrections of the worn depth by extrapolation \[m\].
     pub(crate) corrections: [Vec<f64>; 2],
-    /// Error of the deepest depth by the cells in gross slip \[m\] ([`spots`](super::spots)).
+    /// Error of the deepest depth by the cells \[m\]: across a [spot](super::spots) in gross slip, and by cells
+    /// of [mixed](super::mixed_cells) oxygen.
     #[serde(default)]
     pub(crate) spot_error: f64,
     pub(crate) ended: bool,
@@ -108,6 +109,7 @@ impl WearState {
             dissipated: self.dissipated,
             dissipated_per_cycle: seen.dissipated_per_cycle,
             mu: seen.mu,
+            mu_error: seen.mu_error,
             p_max: largest(seen.p),
             contact_area: touches * area,
             stick_ratio: seen.stick_ratio,

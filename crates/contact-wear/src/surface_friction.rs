@@ -9,6 +9,7 @@
 use contact_core::scene::{BedFriction, Body, Dependence, Scene};
 
 use super::law::layer_at;
+use super::mixed_cells::FrictionOfCells;
 use super::settings::thicknesses;
 
 /// Friction that depends on what wear exposes.
@@ -77,6 +78,22 @@ impl SurfaceFriction {
             (Some(friction), Some(h)) => friction.coefficient(mu, *h),
             _ => mu,
         }
+    }
+
+    /// Error of the mean coefficient of friction by the cells, over it: `ways` and `mu` of the cells of the body
+    /// whose layers count, at worn depths \[m\].
+    pub(crate) fn error(&self, rows: usize, ways: &[f64], mu: &[f64], worn: &[f64]) -> f64 {
+        if !self.has_layers() {
+            return 0.0;
+        }
+        let layer: Vec<usize> = worn.iter().map(|worn| self.layer(*worn)).collect();
+        let cells = FrictionOfCells {
+            rows,
+            ways,
+            mu,
+            layer: &layer,
+        };
+        cells.error()
     }
 
     /// Coefficients of the bare layers at worn depths of their body \[m\].

@@ -31,7 +31,8 @@ pub fn spread_bed(
     guess: Option<&[f64]>,
 ) -> Result<Bed, NotConverged> {
     let conductance: Vec<f64> = region.cells.iter().map(|&c| n * transport[c]).collect();
-    let matrix = Matrix::new(region, &vec![1.0; conductance.len()], &conductance);
+    let reaction = vec![1.0; conductance.len()];
+    let matrix = Matrix::new(region, &reaction, |c, _, theta| conductance[c] / theta);
     let b = region.gather(supply);
     let total: f64 = b.iter().map(|b| b.abs()).sum();
     let mut h = region.gather(guess.unwrap_or(supply));

@@ -17,6 +17,7 @@
 mod air;
 mod bed;
 mod conjugate_gradients;
+mod fitted;
 mod matrix;
 mod region;
 mod share;

@@ -1,9 +1,9 @@
 //! The symmetric matrix of the five-point scheme on the closed cells.
 //!
 //! A side between two closed cells has the conductance of both halves in series (the harmonic mean).
-//! A border at the distance theta cells from a centre has the conductance of the cell over theta:
-//! symmetric, and of second order (F. Gibou, R. Fedkiw, L.-T. Cheng, M. Kang, J. Comput. Phys. 176
-//! (2002) 205-227).
+//! A border at the distance theta cells from a centre has a conductance of its own, without fit the
+//! conductance of the cell over theta: symmetric, and of second order (F. Gibou, R. Fedkiw, L.-T. Cheng,
+//! M. Kang, J. Comput. Phys. 176 (2002) 205-227).
 
 use super::region::{Region, Side};
 
@@ -20,8 +20,13 @@ pub(crate) struct Matrix {
 }
 
 impl Matrix {
-    /// Assembles the matrix from the reaction and the conductance of each closed cell.
-    pub(crate) fn new(region: &Region, reaction: &[f64], conductance: &[f64]) -> Self {
+    /// Assembles the matrix from the reaction of each closed cell and the `conductance` of a cell along
+    /// an axis to a border at a distance \[cells\]; the distance 1 stands for a closed side.
+    pub(crate) fn new(
+        region: &Region,
+        reaction: &[f64],
+        conductance: impl Fn(usize, usize, f64) -> f64,
+    ) -> Self {
         let count = region.cells.len();
         let mut matrix = Self {
             diagonal: reaction.to_vec(),
@@ -33,9 +38,10 @@ impl Matrix {
         for (c, sides) in region.sides.iter().enumerate() {
             for (k, side) in sides.iter().enumerate() {
                 let scale = region.inverse_square(k);
+                let along = |cell: usize, theta: f64| conductance(cell, k / 2, theta);
                 match *side {
                     Side::Closed(n) => {
-                        let entry = scale * harmonic_mean(conductance[c], conductance[n]);
+                        let entry = scale * harmonic_mean(along(c, 1.0), along(n, 1.0));
                         matrix.diagonal[c] += entry;
                         match k {
                             0 => matrix.west[c] = (-entry, n),
@@ -43,7 +49,7 @@ impl Matrix {
                             _ => {}
                         }
                     }
-                    Side::Border(theta) => matrix.border[c] += scale * conductance[c] / theta,
+                    Side::Border(theta) => matrix.border[c] += scale * along(c, theta),
                     Side::Sealed => {}
                 }
             }

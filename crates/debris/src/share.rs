@@ -10,8 +10,13 @@ const FLAT: f64 = 1e-6;
 /// ambient pressure. ln P is linear between the centres of the cells and to the border, where it is
 /// zero. Open cells are aerated.
 pub fn aerated_share(region: &Region, P: &[f64], threshold: f64) -> Vec<f64> {
-    // P is known to ACCURACY times the threshold.
-    let level = |n: usize| (P[n] / threshold).max(ACCURACY).ln();
+    // P is known to ACCURACY times the threshold, and exactly in a line.
+    let least = if region.lattice.rows == 1 {
+        f64::MIN_POSITIVE
+    } else {
+        ACCURACY
+    };
+    let level = |n: usize| (P[n] / threshold).max(least).ln();
     let border = -threshold.ln();
     let shares = region.cells.iter().zip(&region.sides).map(|(&n, sides)| {
         let centre = level(n);

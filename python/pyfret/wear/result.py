@@ -314,7 +314,8 @@ class WearResult(Saveable, Labelled, Figured):
             f"{self.of_loops}"
         )
         if not self.scene.friction.is_constant:
-            lines.append(f"mean coefficient of friction: {with_error(last['mu'])} at the end")
+            mu = with_error(last["mu"], last.get("mu_error", 0.0) * last["mu"])
+            lines.append(f"mean coefficient of friction: {mu} at the end")
         sticks = (
             NO_FRICTION
             if frictionless(self.scene)

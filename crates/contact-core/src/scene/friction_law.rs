@@ -31,7 +31,9 @@ pub struct CellHistory<'a> {
 /// A friction coefficient as a function of position, pressure and history.
 ///
 /// The coefficient at the end of an increment belongs to the pressure and the history there: the
-/// increment is solved again until it no longer changes.
+/// increment is solved again until it no longer changes. In a run of wear the law also sees the surface that
+/// is there: [`CellHistory`] has the worn depths, the exposed layers, the debris bed and the aerated share.
+/// They are constant within a cycle.
 pub trait FrictionLaw: Debug + Send + Sync {
     /// Writes the coefficient, finite and >= 0, of each cell. Where nothing is pressed (p = 0) it
     /// is ignored, and the friction's `mu` taken.
