@@ -2203,12 +2203,13 @@ class LoadPath:
             Loads (``W``, ``T_x``, ...), motions (``delta_x``, ...), ``sigma_B``, ``sigma_B1``,
             ``rolled`` and the path time ``t`` at the waypoints. What has no column stays as it is.
         """
-    def whole_cycles(self, /) -> list[tuple[int, int]]:
+    def whole_cycles(self, /, *, increments: int | None = None) -> list[tuple[int, int]]:
         """
         First and last branch of every whole cycle, from 0.
 
         A cycle ends where the loads return and the path goes on in the same direction, or where it
-        turns. A sine may begin anywhere in its period.
+        turns. A sine may begin anywhere in its period. With `increments` only cycles that end
+        within so many increments, as of a run that ended early.
         """
 
 @final

@@ -1,8 +1,9 @@
 //! A closed cycle of a result store.
 
 use contact_core::Error;
-use contact_core::scene::Branch;
-use contact_subsurface::{CycleSource, EigenstressSolver, Moments, Side, Yielding};
+use contact_subsurface::{
+    CycleSource, EigenstressSolver, Moments, Side, Yielding, finished_cycles,
+};
 
 use crate::Store;
 
@@ -160,19 +161,15 @@ impl CycleSource for StoredCycle<'_> {
 /// negative.
 fn find_cycle(store: &Store, branches: &[usize], cycle: i64) -> Result<(usize, usize), Error> {
     let path = &store.scene().path;
-    let finished = |(_, last): &(usize, usize)| {
-        let increments: usize = path.branches[..=*last].iter().map(Branch::count).sum();
-        branches.len() >= increments
-    };
-    let finished_cycles: Vec<_> = path.cycles().into_iter().filter(finished).collect();
-    if finished_cycles.is_empty() {
+    let finished = finished_cycles(path, branches.len());
+    if finished.is_empty() {
         return Err(path.no_cycle());
     }
-    let count = finished_cycles.len() as i64;
+    let count = finished.len() as i64;
     let n = if cycle < 0 { count + cycle } else { cycle };
     let branches_of_cycle = usize::try_from(n)
         .ok()
-        .and_then(|n| finished_cycles.get(n).copied());
+        .and_then(|n| finished.get(n).copied());
     branches_of_cycle.ok_or_else(|| {
         let allowed = format!("{} to {}, a cycle of the path", -count, count - 1);
         Error::invalid("cycle", cycle, allowed)

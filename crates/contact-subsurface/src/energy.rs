@@ -152,14 +152,24 @@ fn ratio(a: f64, b: f64) -> f64 {
     if b > 0.0 { a / b } else { 0.0 }
 }
 
+/// First and last branch, from 0, of the cycles of a path that end within its first increments.
+pub fn finished_cycles(path: &LoadPath, increments: usize) -> Vec<(usize, usize)> {
+    let mut cycles = path.cycles();
+    cycles.retain(|(_, last)| increments_before(path, last + 1) <= increments);
+    cycles
+}
+
+/// Number of increments of the path before a branch.
+fn increments_before(path: &LoadPath, branch: usize) -> usize {
+    let before = path.branches.iter().take(branch);
+    before.map(Branch::count).sum()
+}
+
 /// The loops of a motion in those cycles of a path that the history contains completely.
 pub fn loops(path: &LoadPath, direction: Direction, history: &[LoopPoint]) -> Vec<Cycle> {
-    let points_to = |branch: usize| -> usize {
-        let before = path.branches.iter().take(branch);
-        before.map(Branch::count).sum()
-    };
-    let done = path.cycles().into_iter().filter_map(|(first, last)| {
-        let (start, end) = (points_to(first), points_to(last + 1));
+    let finished = finished_cycles(path, history.len()).into_iter();
+    let done = finished.filter_map(|(first, last)| {
+        let [start, end] = [first, last + 1].map(|branch| increments_before(path, branch));
         // With the turning point that the cycle starts from, unless that is the unloaded state.
         let curve = history.get(start.saturating_sub(1)..end)?;
         let part = history.get(start..end)?;

@@ -62,7 +62,7 @@ pub use cycle_recorder::CycleRecorder;
 pub use depth::{Depth, Point, Side, default_depths, depths};
 pub use doubled_cells::DoubledCells;
 pub use eigenstress::{Eigenstress, EigenstressSolver};
-pub use energy::{Cycle, CycleErrors, loops};
+pub use energy::{Cycle, CycleErrors, finished_cycles, loops};
 pub use envelope::{DepthEnvelope, Envelope, Extremes};
 pub use extremum::{Errors, Extremum};
 pub use largest::{DepthTops, Largest, MomentTops, largest_of_samples};

@@ -59,8 +59,9 @@ def moment_before(result: Run, kept: NDArray[np.int64]) -> int | None:
 
 def _is_in_cycle(result: Run, saved: NDArray[np.int64], cycle: int) -> NDArray[np.bool_]:
     """Mark the kept increments that lie in a cycle."""
-    cycles = result.loops()
-    count = cycles.sizes["cycle"]
+    branches = result.dataset.branch_of_increment
+    cycles = result.scene.path.whole_cycles(increments=branches.size)
+    count = len(cycles)
     if count == 0:
         raise ValueError(
             f"{result.scene.path.no_cycle()}: a cycle is needed, as path.cycles(1, T_x=...) or "
@@ -68,9 +69,9 @@ def _is_in_cycle(result: Run, saved: NDArray[np.int64], cycle: int) -> NDArray[n
         )
     if not -count <= cycle < count:
         raise ValueError(f"cycle = {cycle}: must be {-count} to {count - 1}, a cycle of the path")
-    ends = cycles.isel(cycle=cycle)
-    branch = result.dataset.branch_of_increment.sel(increment=saved).values
-    return np.asarray((branch >= int(ends.first_branch)) & (branch <= int(ends.last_branch)))
+    first, last = cycles[cycle]
+    branch = branches.sel(increment=saved).values
+    return np.asarray((branch >= first) & (branch <= last))
 
 
 @quantities

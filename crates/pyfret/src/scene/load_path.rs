@@ -1,6 +1,7 @@
 //! The load history.
 
 use contact_core::scene::{self as core, Prescribed, RigidMotion};
+use contact_subsurface::finished_cycles;
 
 use super::branch::{Branch, Spacing};
 use super::branches::{branch, column, cycled, moved, prescribe};
@@ -98,9 +99,14 @@ impl LoadPath {
     /// First and last branch of every whole cycle, from 0.
     ///
     /// A cycle ends where the loads return and the path goes on in the same direction, or where it
-    /// turns. A sine may begin anywhere in its period.
-    fn whole_cycles(&self) -> Vec<(usize, usize)> {
-        self.0.cycles()
+    /// turns. A sine may begin anywhere in its period. With `increments` only cycles that end
+    /// within so many increments, as of a run that ended early.
+    #[pyo3(signature = (*, increments: "int | None" = None))]
+    fn whole_cycles(
+        &self,
+        #[pyo3(from_py_with = number)] increments: Option<usize>,
+    ) -> Vec<(usize, usize)> {
+        finished_cycles(&self.0, increments.unwrap_or(usize::MAX))
     }
 
     /// Why the path has no closed cycle, in words.
