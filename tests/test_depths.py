@@ -10,7 +10,7 @@ import pytest
 
 import pyfret as fret
 from conftest import R, W, sphere_on_flat
-from pyfret.subsurface.tensor import LABELS
+from pyfret.subsurface.tensor import COMPONENTS, LABELS
 
 STEEL = fret.Elastic(E=210e9, nu=0.3)
 HERTZ = fret.reference.hertz(R=R, bodies=(STEEL, STEEL), W=W)
@@ -170,3 +170,19 @@ def test_no_largest_value_is_below_a_sample_away_from_the_rim() -> None:
             continue
         highest = float(stress.measure(measure).values[deep].max())
         assert top.value >= highest - 1e-9 * abs(highest), measure
+
+
+@pytest.mark.solves
+@pytest.mark.parametrize("n", [16, 17])
+def test_a_section_close_to_a_row_of_cells_is_the_one_on_it(n: int) -> None:
+    """Rows of cells on both sides of the section lie at nearly equal distances from it."""
+    path = fret.LoadPath.start().normal(W, increments=1).tangential(0.1 * W, increments=2)
+    last = fret.solve(sphere_on_flat(n=n), path, progress=False).at(-1)
+    z = np.array([0.0, 0.02, 0.2]) * HERTZ.a
+    on_row, cell = last.stress(z, y=0.0), float(last.dataset.x[1] - last.dataset.x[0])
+    for part in (1e-12, 1e-6, 1e-3, 1e-2):
+        beside = last.stress(z, y=part * cell)
+        for name in COMPONENTS:
+            off = np.abs(beside.dataset[name] - on_row.dataset[name]).max()
+            # On a row other cells have loads that vary within them.
+            assert off < (1e-3 + part) * HERTZ.p_H, (name, part)

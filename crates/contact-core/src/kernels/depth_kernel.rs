@@ -146,6 +146,9 @@ impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
     }
 }
 
+/// Distance of two edges by rounding alone, over the width of a cell.
+const SAME_EDGE: f64 = 1e-9;
+
 /// Values at the corners of a row of cells. Neighbours share them, in the row and in the next one.
 pub struct SharedCorners<const R: usize> {
     /// Offset along x of the first corner \[cells\].
@@ -177,7 +180,8 @@ impl<const R: usize> SharedCorners<R> {
     /// Begins a row at the offset y of cells with the width d_y; an edge of the row before is kept.
     fn start_row(&mut self, y: f64, d_y: f64) {
         let edges = [y - d_y / 2.0, y + d_y / 2.0];
-        let is_at = |edge: &Edge<R>, y: f64| (edge.y - y).abs() < 0.25 * d_y;
+        // Rows on both sides of a place, folded onto one, may have edges close to each other.
+        let is_at = |edge: &Edge<R>, y: f64| (edge.y - y).abs() < SAME_EDGE * d_y;
         let [low, high] = &self.edges;
         if is_at(low, edges[1]) || is_at(high, edges[0]) {
             self.edges.swap(0, 1);
