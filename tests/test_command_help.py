@@ -93,7 +93,7 @@ def test_every_option_that_is_a_quantity_may_have_a_unit() -> None:
     for name, action in quantities():
         checked.add((name, action.dest))
         assert f"[{action.type.unit}, or with a unit]" in (action.help or "")  # type: ignore[union-attr]
-        parts = action.type.each if isinstance(action.type, Values) else (action.type,)
+        parts = action.type.kinds if isinstance(action.type, Values) else (action.type,)
         for item in parts:
             assert isinstance(item, Value)
             assert item("0.25") == 0.25

@@ -288,3 +288,12 @@ def test_materials_are_given_by_their_names() -> None:
     assert fret.Body(substrate="steel") == fret.Body(fret.material("steel"))
     assert "TiN" in fret.materials
     assert set(fret.materials) == set(fret.materials().index)
+
+
+def test_a_hardness_is_a_number_with_a_unit_or_a_material() -> None:
+    """A text that begins with a digit is a pressure."""
+    steel = fret.Elastic(E=210e9, nu=0.3)
+    assert fret.Body(steel, hardness="3.5 GPa").hardness == pytest.approx(3.5e9)
+    assert fret.Body(steel, hardness=3.5e9).hardness == pytest.approx(3.5e9)
+    with pytest.raises(ValueError, match="must be a number in Pa"):
+        fret.Body(steel, hardness="3 m")

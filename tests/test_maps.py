@@ -201,7 +201,7 @@ MAP_IN_A_SCENE = """
 def test_a_map_named_in_a_scene_has_a_size(tmp_path: Path) -> None:
     np.save(tmp_path / "z.npy", 1e-7 * np.random.default_rng(0).random((20, 20)))
     scene = tmp_path / "scene.toml"
-    for spacing, side in ((1.0, "20 m"), (1e-9, "2e-8 m")):
+    for spacing, side in ((1.0, "20 m"), (1e-9, "2.000e-8 m")):
         scene.write_text(MAP_IN_A_SCENE.format(spacing=spacing))
         with pytest.raises(ValueError, match=rf"{side} long in x.*must be 1e-7 to 0.5 m"):
             fret.Scene.from_file(scene)

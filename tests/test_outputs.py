@@ -16,6 +16,7 @@ import pyfret as fret
 from pyfret import contacts, fit
 from pyfret._util.attributes import OUTPUTS, OWNERS
 from pyfret._util.compiled import MATERIALS
+from pyfret._util.csv_table import convert_units
 from pyfret._util.holds_arrays import HoldsArrays
 from pyfret._util.labelled import Labelled
 from pyfret.scene.maps import write_heights
@@ -294,3 +295,13 @@ def test_a_run_that_left_the_grid_decides_nothing() -> None:
     assert str(preference) == "undecided: the grid is too small for TiN"
     assert str(preference._replace(ended=())) == "no difference"
     assert str(preference._replace(best=["DLC"], worse=["TiN"])) == "best: DLC"
+
+
+def test_errors_and_bounds_have_the_unit_of_their_number() -> None:
+    frame = pd.DataFrame({f"s_1{end} [Pa]": [2e6] for end in ("", "_low", "_high", "_error")})
+    frame["s_1_ratio [Pa]"] = [2e6]
+    converted = convert_units(frame, {"s_1": "MPa"})
+    assert list(converted.iloc[0]) == [2.0, 2.0, 2.0, 2.0, 2e6]
+    assert list(converted)[1:] == [
+        *("s_1_low [MPa]", "s_1_high [MPa]", "s_1_error [MPa]", "s_1_ratio [Pa]"),
+    ]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from pyfret._core import Elastic, Material, Plastic, material_quantities
+from pyfret._core import Elastic, Material, Plastic, material_quantities, quantity_in_si
 from pyfret._util.compiled import register_materials
 from pyfret._util.material_names import find_material
 from pyfret._util.scene_warnings import warn
@@ -181,9 +181,10 @@ def elastic_from(value: Any, parameter: str) -> Any:
 
 @quantities
 def hardness_from(hardness: YieldStress | Material | str) -> float:
-    """Return a hardness [Pa]: a number, or 2.8 times the yield stress of a material."""
-    if isinstance(hardness, (int, float)):
-        return float(hardness)
+    """Return a hardness [Pa]: a number, with or without a unit, or 2.8 times a yield stress."""
+    is_text = isinstance(hardness, str) and hardness.strip()[:1].isdigit()
+    if is_text or isinstance(hardness, (int, float)):
+        return quantity_in_si("material stress", hardness)
     chosen = Materials()[hardness] if isinstance(hardness, str) else hardness
     if not isinstance(chosen, Material):
         raise TypeError(f"hardness = {hardness!r}: must be a pressure in Pa or a material")

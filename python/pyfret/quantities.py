@@ -2,8 +2,9 @@
 
 Each type is a row of the table of quantities (crate ``plausible``): a unit, and a range in which
 numbers are plausible. The decorator :func:`quantities` reads the types of a function once. At each
-call it converts texts with units, and quantities of pint, to SI. It refuses what is no number, and
-warns of a number outside its range: its unit is nearly always another one.
+call it converts texts with units, and quantities of pint, to SI (``_core.quantity_in_si``, in the
+core ``scene::case::measure``). It refuses what is no number, and warns of a number outside its
+range: its unit is nearly always another one.
 """
 
 from __future__ import annotations

@@ -205,13 +205,12 @@ impl BodySearch {
             let substrate = sampled_line.depths[0].layer == self.body.coatings.len();
             let deeper = substrate && sampled_line.extend_down(search, measure)?;
             if longer || deeper {
-                still_rises.push(sampled_line.depths[0].layer);
+                let layer = sampled_line.depths[0].layer;
+                still_rises.push((layer, largest_sample(&sampled_line.values)));
             }
             let deepest = reached.last().map_or(0.0, |depth| depth.z);
             reached.extend(sampled_line.depths.iter().filter(|depth| depth.z > deepest));
         }
-        still_rises.sort_unstable();
-        still_rises.dedup();
         let mut starts: Vec<Start> = Vec::new();
         for sampled_line in &sampled {
             starts.extend(sampled_line.starts(search, &probe, layer, self.beside.is_some()));
@@ -298,6 +297,12 @@ impl BodySearch {
                 (free, on_line) => free.or(on_line),
             };
         }
+        // A layer with negative samples alone rises to 0, far below a positive value elsewhere.
+        let is_positive = largest.is_some_and(|top| top.value >= 0.0);
+        still_rises.retain(|(_, top)| *top >= 0.0 || !is_positive);
+        let mut still_rises: Vec<usize> = still_rises.into_iter().map(|(layer, _)| layer).collect();
+        still_rises.sort_unstable();
+        still_rises.dedup();
         largest = largest.filter(|top| top.value >= 0.0 || !still_rises.contains(&top.depth.layer));
         Ok(BodyMaximum {
             largest,

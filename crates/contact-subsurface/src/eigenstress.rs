@@ -200,6 +200,7 @@ impl Field {
         let (rows, z): (Vec<usize>, Vec<f64>) = rows.map(|(n, (z, _))| (n, *z)).unzip();
         let ends = [*z.first()?, *z.last()?];
         let [_, last] = ends;
+        // The stress of a source decays with this power of the distance, beside the grid and below it.
         let power = if self.plane_strain { 2 } else { 3 };
         // The substrate goes on below its last plane.
         let is_last = rows.last().is_some_and(|n| n + 1 == self.planes.len());

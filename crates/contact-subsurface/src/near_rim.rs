@@ -128,7 +128,9 @@ impl NearRim {
         offset: (f64, f64),
     ) -> Option<Parts> {
         let fineness = Fineness::shared(self.is_flat());
-        self.divide(kernel, depth, offset, fineness, &|_| true, true)
+        let every_cell = |_| true;
+        let for_all_states = true;
+        self.divide(kernel, depth, offset, fineness, &every_cell, for_all_states)
     }
 
     /// The parts around one point in a cell, which may lie on a border, for some states. Cells in

@@ -59,7 +59,8 @@ impl PlasticStrain {
         sums
     }
 
-    /// Averages over pairs of cells, and over the planes with equal numbers in `of_plane`.
+    /// The strain on cells twice as large, by averages over pairs of cells, and on fewer planes: those with equal
+    /// numbers in `of_plane` are averaged. Values are stored by plane, cell along x, cell along y.
     pub(super) fn coarsened(&self, cells: &DoubledCells, of_plane: &[usize]) -> Self {
         let planes_merged =
             |plane: usize| of_plane.iter().filter(|merged| **merged == plane).count();

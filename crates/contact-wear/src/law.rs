@@ -117,7 +117,7 @@ impl Law for Archard {
         )
     }
 
-    /// Always: the depth depends on the cycle alone.
+    /// Equal cycles wear equally: the depth follows from what happens within the cycle.
     fn is_steady(&self) -> bool {
         true
     }
@@ -173,7 +173,7 @@ impl Law for DissipatedEnergy {
         )
     }
 
-    /// Always: the depth depends on the cycle alone.
+    /// Equal cycles wear equally: the depth follows from what happens within the cycle.
     fn is_steady(&self) -> bool {
         true
     }

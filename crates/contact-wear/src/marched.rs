@@ -328,7 +328,8 @@ impl Marched {
         self.loss_at_rates(worn, n, &rates, &worn.bed, p, implicit)
     }
 
-    /// Solves the jump with oxygen and debris, which follow from the contact at the end of the jump.
+    /// Solves a jump of n cycles with oxygen and debris, which follow from the contact at its end: an iteration
+    /// to a fixed point. `p` is the pressure at the start, and at the end when it returns.
     fn loss_with_third_body(
         &mut self,
         third_body: &ThirdBody,

@@ -242,9 +242,12 @@ impl Mesh {
         })
     }
 
-    /// Mesh with elements of about `fine` \[m\] at the surface and at interfaces, growing with the distance
-    /// from there to `height` \[m\], down to `depth` \[m\]; at least two in each layer that begins there,
-    /// and growing ones below: through the layers, and at least down to `reach` \[m\].
+    /// Builds a mesh whose elements grow with the distance from the surface and from interfaces.
+    ///
+    /// - `depth` \[m\]: down to here elements are at most `height` high; each layer that begins above has two
+    ///   at least.
+    /// - `fine`, `height` \[m\]: heights at the surface and at interfaces, and far from them.
+    /// - `reach` \[m\]: below `depth` elements grow through all layers, and at least down to here.
     pub fn graded(
         cells: Cells,
         layers: Vec<Layer>,

@@ -63,7 +63,7 @@ impl Periods {
         }
     }
 
-    /// Length of a real transform.
+    /// Number of complex values that the transform of a real row along y has: n/2 + 1.
     pub(crate) fn half(&self) -> usize {
         self.fast / 2 + 1
     }
@@ -182,7 +182,8 @@ fn nodes(phase: f64) -> usize {
     (0.5 * phase).ceil() as usize + 8
 }
 
-/// Largest wave number of the integral \[1/m\].
+/// Largest wave number \[1/m\] of the integral over all waves that gives the stress: REACH times the largest
+/// step of the wave numbers.
 pub(crate) fn reach(cells: &Cells, periods: Periods) -> f64 {
     let [x, y] = steps(cells, periods);
     REACH * x.max(y)

@@ -191,7 +191,11 @@ impl Contact {
         })
     }
 
-    /// The faces at an instant; `states` is the first guess.
+    /// Finds which points of the faces are open, stick or slip at an instant; `states` is the first guess.
+    ///
+    /// Each pass solves for the jumps, and all points whose state contradicts them change. Where the number
+    /// of contradictions has not fallen for [`BLOCKS`] passes, the last point alone changes. `known` keeps the
+    /// factors of the open points. Fails with the contradictions left after [`MOST_PASSES`].
     ///
     /// Where the faces can part everywhere they do: then no history is left in them.
     pub(crate) fn settle(

@@ -146,7 +146,7 @@ pub fn estimated(material: &Material, family: Family) -> Material {
     found
 }
 
-/// Sets a number that is not there, if it has a value of its quantity.
+/// Sets a missing number of a material to an estimate. An estimate that its quantity does not allow is left out.
 fn fill(material: &mut Material, name: &str, value: f64, rule: &str) {
     if material.number(name).is_err()
         && let Ok((name, sourced)) = Sourced::of(name, value, format!("{MARK}{rule}"))

@@ -99,7 +99,9 @@ def missing_attribute(self: Any, name: str, elsewhere: Mapping[str, str] | None 
         # A property that failed has its own error.
         object.__getattribute__(self, name)
     public = [member for member in dir(self) if not member.startswith("_")]
-    where = {**output_calls(kind), **(elsewhere or {})}
+    # A word for a method of its own comes before another way to write or draw the whole.
+    outputs = {k: call for k, call in output_calls(kind).items() if not meant(k, sorted(public))}
+    where = {**outputs, **(elsewhere or {})}
     raise attribute_error(kind.__name__, name, public, where)
 
 

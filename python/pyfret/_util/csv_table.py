@@ -178,7 +178,8 @@ def convert_units(frame: pd.DataFrame, units: Mapping[str, str] | None) -> pd.Da
     frame : DataFrame
         Units in the names of the columns.
     units : mapping of str to str, optional
-        Units by the names of columns, or by the units that are replaced: ``{"m": "um"}``.
+        Units by the names of columns, or by the units that are replaced: ``{"m": "um"}``. Errors
+        and bounds of a column (``_error``, ``_low``, ``_high``) are in its unit.
 
     Raises
     ------
@@ -202,7 +203,9 @@ def convert_units(frame: pd.DataFrame, units: Mapping[str, str] | None) -> pd.Da
             raise ValueError(f"units: no column with a unit is called {name!r:.60}{hint}")
     converted = {}
     for column, part in parts.items():
-        unit = next((units[key] for key in (column, *part) if key in units), None)
+        measured = part[0].removesuffix("_low").removesuffix("_high").removesuffix("_error")
+        keys = (column, *part, measured) if measured in names else (column, *part)
+        unit = next((units[key] for key in keys if key in units), None)
         if unit is None or len(part) < 2:
             converted[column] = frame[column]
             continue

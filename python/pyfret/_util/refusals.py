@@ -116,7 +116,11 @@ def name_class(name: str, arguments: Mapping[str, Any], error: Exception) -> Typ
 
 
 def is_of_wrong_class(value: object, error: Exception) -> bool:
-    """Check that an error is about the class of a value, or about its endless nesting."""
+    """Check that an error is about the class of a value, or about its endless nesting.
+
+    An AttributeError is where a function took the value for another class: ``(3).dims``. The error
+    then holds the value in `obj`.
+    """
     if isinstance(error, RecursionError):
         return isinstance(value, (list, tuple, dict))
     if not isinstance(error, AttributeError) or error.obj is not value:

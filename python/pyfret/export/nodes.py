@@ -98,7 +98,7 @@ def nodal_forces(
         raise ValueError("no face of the mesh lies in the plane z = 0 of the frame")
     grid = state.scene.grid
     x, y, p, q = cells_of(state)
-    shortest = min(float(_sides(at, rows).min()) for rows in tables if rows.size)
+    shortest = min(float(_side_lengths(at, rows).min()) for rows in tables if rows.size)
     if shortest == 0:
         raise ValueError("faces: one has two nodes at one place: must have sides of some length")
     parts = int(np.clip(np.ceil(max(grid.dx, grid.dy) / (PART * shortest)), 1, MOST))
@@ -177,8 +177,8 @@ def _corners(rows: NDArray[np.int64]) -> int:
     return 3 if count in (3, 6) else 4
 
 
-def _sides(at: NDArray[np.float64], rows: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Return the vectors along the sides of faces."""
+def _side_lengths(at: NDArray[np.float64], rows: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Return the lengths of the sides of faces [m]."""
     corners = at[rows[:, : _corners(rows)]]
     return np.asarray(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2))
 

@@ -370,11 +370,11 @@ class Cracks(Saveable, Labelled, Figured):
         first = float(self.lengths[0]) if start is None else as_number(start)
         below = cast("Threshold", threshold)
 
-        def followed(more: NDArray[np.float64] | float) -> tuple[Any, ...]:
-            """Return the arrest with `more` added to K_max."""
+        def arrest_with_more(more: NDArray[np.float64] | float) -> tuple[Any, ...]:
+            """Return verdict, length, crossings, start, margin and place with `more` on K_max."""
             return _core.arrest(*self._curve(more), below._numbers(), first)
 
-        verdict, length, crossings, at_start, margin, at = followed(0.0)
+        verdict, length, crossings, at_start, margin, at = arrest_with_more(0.0)
         arrest = CrackArrest(
             verdict,
             first,
@@ -388,7 +388,7 @@ class Cracks(Saveable, Labelled, Figured):
         )
         if "error" not in self.dataset:
             return arrest
-        ends = [followed(error) for error in self._ends()]
+        ends = [arrest_with_more(error) for error in self._ends()]
         stops = [
             {"dormant": first, "grows": math.inf}.get(end[0], end[1])
             for end in (*ends, [verdict, length])
@@ -426,7 +426,7 @@ class Cracks(Saveable, Labelled, Figured):
                 "has paris_C and paris_m"
             )
 
-        def followed(more: NDArray[np.float64] | float) -> tuple[float, float, bool]:
+        def arrest_with_more(more: NDArray[np.float64] | float) -> tuple[float, float, bool]:
             """Return the life with `more` added to K_max."""
             return _core.crack_life(
                 *self._curve(more),
@@ -440,11 +440,11 @@ class Cracks(Saveable, Labelled, Figured):
             )
 
         life = CrackLife(
-            *followed(0.0), self.arrest(threshold, start=start), estimate=growth.estimate
+            *arrest_with_more(0.0), self.arrest(threshold, start=start), estimate=growth.estimate
         )
         if "error" not in self.dataset:
             return life
-        ends = [followed(error)[0] for error in self._ends()]
+        ends = [arrest_with_more(error)[0] for error in self._ends()]
         return replace(life, low=min(life.cycles, *ends), high=max(life.cycles, *ends))
 
     @quantities

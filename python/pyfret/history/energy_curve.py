@@ -104,14 +104,17 @@ class EnergyCurve:
         return a, np.log(self.energies[chosen] / a**3)
 
     def _of_partial_slip(self, a: NDArray[np.float64], *, linear: bool) -> NDArray[np.float64]:
-        """Return the energy below the onset of gross slip, by cubic or straight pieces."""
-        nodes, ratio = self._partial
+        """Return the energy below the onset of gross slip at amplitudes a.
+
+        In small slip it grows like a^3: ln(E/a^3) is interpolated, by cubic or straight pieces.
+        """
+        nodes, log_ratio = self._partial
         if nodes.size == 0:
             return np.zeros_like(a)
         if linear or nodes.size < 3:
-            value = np.interp(a, nodes, ratio)
+            value = np.interp(a, nodes, log_ratio)
         else:
-            value = cubic(nodes, ratio, np.clip(a, nodes[0], nodes[-1]))
+            value = cubic(nodes, log_ratio, np.clip(a, nodes[0], nodes[-1]))
         return np.asarray(np.exp(value) * a**3)
 
     def _line(self, a: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -80,7 +80,12 @@ class Spectrum(HoldsArrays):
         amplitudes: NDArray[np.float64] | None = None,
         powers: NDArray[np.float64] | None = None,
     ) -> dict[str, NDArray[np.float64]]:
-        """Return the numbers of the cycles of a distribution, by the core."""
+        """Return what the core computes of the cycles under a distribution.
+
+        Keys: ``moments`` m_0, m_1, m_2 and m_4; ``rates`` of up-crossings, peaks and cycles [1/s];
+        ``exceedance``, the part of the cycles beyond each of `amplitudes`; ``mean_power``, the mean
+        of amplitude^k for each k of `powers`.
+        """
         none = np.empty(0)
         return _core.spectral_cycles(
             self.frequencies,

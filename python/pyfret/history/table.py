@@ -349,7 +349,8 @@ class HistoryTable:
     ) -> LoopStates:
         """Return the states at the ends of the loops, or of classes of many loops.
 
-        `coarse`: by every second amplitude of the table.
+        `classes`: numbers of classes of range and of mean. `coarse`: by every second amplitude of
+        the table.
         """
         rows, moments, sides = self._memory_of_history
         if self.is_grouped:
@@ -365,7 +366,12 @@ class HistoryTable:
     def _memory_of_history(
         self,
     ) -> tuple[NDArray[np.float64], list[NDArray[np.float64]], NDArray[np.float64]]:
-        """Return rows of range, mean and count, the weights of D at both ends, and the branches."""
+        """Return what the loops remember: an array for each of three things.
+
+        Rows of range, mean and count. For each loop the weights of the solved states that give its
+        state at both ends. And its side: 1 on the rising, -1 on the falling branch of the largest
+        loop.
+        """
         history = self.history
         if history.is_series:
             return self._memory_of_series(history.channels[history.channel], self.loops)

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
     from pyfret.fatigue.factors import Factor, LoadFactors
     from pyfret.fatigue.judged import Life
+    from pyfret.fatigue.ranges import LifeRange
     from pyfret.plot.scales import Units
     from pyfret.subsurface.extremum import Extremum
 
@@ -81,7 +82,8 @@ def criterion_map(
 
     Criteria with a limit have the value over the limit; the bold contour is the limit itself. The
     others have the life in cycles, empty beyond 1e7 cycles. Layers without a
-    material stay empty.
+    material stay empty. Contours and worst point belong to the stress at each point. The margin of
+    the life itself, of the stress averaged over the critical distance, is written below.
 
     Parameters
     ----------
@@ -112,8 +114,19 @@ def criterion_map(
     if not whole:
         _enlarge(ax, shown, life.dataset.value.values, units)
     at = (line_of(shown).place(worst.x, worst.y), worst.z)
-    _mark(ax, at, f"worst point: {margin}", shown, units, lives=not safety)
+    text = f"worst point: {margin}"
+    if life.L is not None:
+        text += f"\nmean over {1e6 * life.L:.3g} µm: {_mean_margin(life.range, safety=safety)}"
+    _mark(ax, at, text, shown, units, lives=not safety)
     return ax
+
+
+def _mean_margin(mean: LifeRange, *, safety: bool) -> str:
+    """Return the margin of the mean stress with its range, as the margin of a point is written."""
+    if not safety:
+        return f"{in_powers(repr(mean))} cycles"
+    parts = (1.0 / margin if margin else np.inf for margin in (mean.best, mean.high, mean.low))
+    return f"{with_range(*parts)} of the limit"
 
 
 @styled

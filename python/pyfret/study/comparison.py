@@ -181,6 +181,7 @@ class Comparison(Labelled, Figured):
 
         A candidate is worse where its range does not overlap with the range of the best one. There
         is no best stress in different materials, since each of them has a strength of its own.
+        ``ended`` names the best ones of whose wear only a bound is known: their run ended early.
 
         Raises
         ------

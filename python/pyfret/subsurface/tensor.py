@@ -261,7 +261,10 @@ class Stress(Labelled, Figured):
         return self._on_borders("stick border")
 
     def _on_borders(self, zone: str) -> Stress:
-        """Return the stress on the borders of a zone."""
+        """Return the surface stress on the borders of a zone, over a dimension named after it.
+
+        "stick border" has the dimension ``stick``, "rim" the dimension ``rim``.
+        """
         along = self._section_axis()
         surface = self.dataset.isel(depth=0)
         if float(surface.z) != 0.0:

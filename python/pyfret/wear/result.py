@@ -244,9 +244,9 @@ class WearResult(Saveable, Labelled, Figured):
 
     @property
     def scene(self) -> Scene:
-        """The scene before wear; its path has the rig, which a path of your own has not."""
+        """The scene before wear. Its path includes the stiffness of the rig."""
         scene = Scene.from_toml(self.dataset.attrs["scene"])
-        # Stores of before have the rig in the table of wear.
+        # Older stores keep the rig in the table of wear.
         stiffness = self.table.get("rig_stiffness", scene.path.rig_stiffness)
         return scene.replace(path=scene.path.rig(stiffness))
 

@@ -32,7 +32,8 @@ impl CirculantInverse {
         Self::new_unless_stopped(c, mirror, single, &AtomicBool::new(false)).expect(NOBODY)
     }
 
-    /// Builds the inverse as [`Self::new`] does; fails when `stop` is raised.
+    /// Inverts the kernels in the frequency domain, cut off at half of their range and without the coupling of
+    /// normal and tangential directions. Stored in single precision if `single`; fails when `stop` is raised.
     pub(crate) fn new_unless_stopped(
         c: &InfluenceCoefficients,
         mirror: Mirror,

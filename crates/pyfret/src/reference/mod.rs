@@ -104,8 +104,8 @@ enum Curved {
     Cylinder(f64),
 }
 
-/// Takes the materials of two bodies, whose surfaces must have the relative curvature `curved`. A flat body and
-/// a material alone fit any.
+/// The elastic constants of two bodies. Fails if their curvatures (xx, xy, yy, the second part of each) do not
+/// add up to the radius of the closed form, `curved`; flat bodies and materials alone fit any.
 fn pair_of(curved: Curved, bodies: (Material, Material)) -> Answer<(core::Elastic, core::Elastic)> {
     let [xx, xy, yy]: [f64; 3] = std::array::from_fn(|i| bodies.0.1[i] + bodies.1.1[i]);
     let (mean, half) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));

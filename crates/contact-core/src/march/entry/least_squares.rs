@@ -46,7 +46,8 @@ impl<const N: usize, const V: usize> LeastSquares<N, V> {
         self.right.map(|right| product(&inverse, right))
     }
 
-    /// Sum over all places of the fitted value times the value of number `kind`.
+    /// The inner product sum fit(x) v(x) over all places x: of the fit with these factors, and of the values v
+    /// of number `kind`.
     pub(in crate::march) fn fitted(&self, factors: &[f64; N], kind: usize) -> f64 {
         let terms = factors.iter().zip(self.right[kind]);
         terms.map(|(factor, right)| factor * right).sum()

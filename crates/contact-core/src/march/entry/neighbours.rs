@@ -71,7 +71,7 @@ impl Neighbour {
         }
     }
 
-    /// Distance in lengths of a cell.
+    /// Distance of the neighbour from the cell, in sides of a cell.
     pub(super) fn distance(&self) -> f64 {
         length(self.off)
     }

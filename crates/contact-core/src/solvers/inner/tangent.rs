@@ -121,7 +121,8 @@ impl CellTangent {
         .map(|of| self.weight * of)
     }
 
-    /// B^T w v
+    /// The part of this cell in B^T w v: the weighted sums of v along x and y and its moment, where B maps a
+    /// shift along x and y and a rotation to the displacement of the cell.
     pub(super) fn weighted_sums(self, v: [f64; 2]) -> [f64; 3] {
         self.sums(v).map(|m| self.weight * m)
     }
