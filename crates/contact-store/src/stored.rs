@@ -1,11 +1,11 @@
 //! An array of a store: reading gives the written values or an error.
 
 use std::fs::File;
-use std::io::{self, BufReader, Read, Write};
+use std::io::{self, BufRead, BufReader, Read, Write};
 use std::sync::Arc;
 
 use contact_core::Error;
-use flate2::read::{MultiGzDecoder, ZlibDecoder};
+use flate2::bufread::{MultiGzDecoder, ZlibDecoder};
 use rayon::prelude::*;
 use serde_json::Value;
 use zarrs::array::{Array, ArrayError, ArraySubset, ElementOwned};
@@ -100,15 +100,20 @@ impl<'a> Stored<'a> {
             counts: rows * row,
             crc: crc32fast::Hasher::new(),
         };
-        let file = BufReader::new(file);
-        let unfolded: Box<dyn Read> = match self.compressor {
-            Compressor::None => Box::new(file),
-            Compressor::Gzip => Box::new(MultiGzDecoder::new(file)),
-            Compressor::Zlib => Box::new(ZlibDecoder::new(file)),
+        let mut file = BufReader::new(file);
+        let unfolded: Box<dyn Read + '_> = match self.compressor {
+            Compressor::None => Box::new(&mut file),
+            Compressor::Gzip => Box::new(MultiGzDecoder::new(&mut file)),
+            Compressor::Zlib => Box::new(ZlibDecoder::new(&mut file)),
         };
         match io::copy(&mut unfolded.take(size + 1), &mut sum) {
             Ok(n) if n == size => {}
             Ok(_) => return Err(damaged(&"it is of another length")),
+            Err(e) => return Err(damaged(&e)),
+        }
+        match file.fill_buf() {
+            Ok([]) => {}
+            Ok(_) => return Err(damaged(&"bytes follow its end")),
             Err(e) => return Err(damaged(&e)),
         }
         let expected = checksums.get(chunk[0] as usize).copied();
