@@ -14,7 +14,7 @@ pub const ACCURACY: f64 = 1e-3;
 /// where nothing is consumed. The error is at most [`ACCURACY`] times the `threshold`. A `guess`
 /// shortens the iterations.
 ///
-/// The scheme is [fitted](super::fitted) to waves along the axes of the grid: the oxygen distance d of a
+/// The scheme is fitted to waves along the axes of the grid: the oxygen distance d of a
 /// strip of constant lambda is exact on any grid. Along a diagonal it is too small by (dx/lambda)^2 d/48.
 pub fn diffuse_air(
     region: &Region,
