@@ -82,9 +82,9 @@ class Spectrum(HoldsArrays):
     ) -> dict[str, NDArray[np.float64]]:
         """Return what the core computes of the cycles under a distribution.
 
-        Keys: ``moments`` m_0, m_1, m_2 and m_4; ``rates`` of up-crossings, peaks and cycles [1/s];
-        ``exceedance``, the part of the cycles beyond each of `amplitudes`; ``mean_power``, the mean
-        of amplitude^k for each k of `powers`.
+        ``moments`` has m_0, m_1, m_2 and m_4, ``rates`` the up-crossings, peaks and cycles [1/s].
+        ``exceedance`` is the part of the cycles beyond each of `amplitudes`. ``mean_power`` is the
+        mean of amplitude^k for each k of `powers`.
         """
         none = np.empty(0)
         return _core.spectral_cycles(
