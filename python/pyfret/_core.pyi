@@ -1,7 +1,7 @@
 import os
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
-from typing import Any, Final, Literal, SupportsIndex, final
+from typing import Any, Final, Literal, SupportsFloat, SupportsIndex, final
 
 import numpy as np
 import xarray as xr
@@ -2898,6 +2898,7 @@ class Scene:
         wear: Mapping[str, Any] | None = None,
         error: float = 0.02,
         n: int | None = None,
+        grid: Grid | None = None,
         quiet: bool = False,
     ) -> Scene:
         """Make the scene of a ball on a flat: bodies, path and a grid that fits them.
@@ -2927,6 +2928,8 @@ class Scene:
             Error that is wanted of the pressure (default 2 %).
         n : int, optional
             Cells along the shorter side, in place of those that `error` and a film take.
+        grid : Grid, optional
+            Grid in place of the one that is chosen.
         quiet : bool
             Whether the line about the grid is not printed (default False).
 
@@ -2961,6 +2964,7 @@ class Scene:
         wear: Mapping[str, Any] | None = None,
         error: float = 0.02,
         n: int | None = None,
+        grid: Grid | None = None,
         quiet: bool = False,
     ) -> Scene:
         """Make the scene of two crossed cylinders, as of wires and of many rigs.
@@ -2973,7 +2977,7 @@ class Scene:
             Their radii [m] (default of the second: the first radius).
         angle : float
             Angle between the axes [rad], such as ``"90 deg"`` (default: a right angle).
-        W, mu, T, shift, sigma_B, cycles, wear, error, n, quiet
+        W, mu, T, shift, sigma_B, cycles, wear, error, n, grid, quiet
             As in :func:`ball_on_flat`.
         """
     @staticmethod
@@ -2991,6 +2995,7 @@ class Scene:
         wear: Mapping[str, Any] | None = None,
         error: float = 0.02,
         n: int | None = None,
+        grid: Grid | None = None,
         quiet: bool = False,
     ) -> Scene:
         """Make the scene of a long cylinder on a flat, a line contact in plane strain.
@@ -3014,6 +3019,7 @@ class Scene:
         wear: Mapping[str, Any] | None = None,
         error: float = 0.02,
         n: int | None = None,
+        grid: Grid | None = None,
         quiet: bool = False,
     ) -> Scene:
         """Make the scene of a flat pad with rounded edges on a flat: a line contact.
@@ -3028,7 +3034,7 @@ class Scene:
             Radius of the edges [m].
         W, T : float
             Forces per metre [N/m].
-        mu, shift, sigma_B, cycles, wear, error, n, quiet
+        mu, shift, sigma_B, cycles, wear, error, n, grid, quiet
             As in :func:`ball_on_flat`.
         """
     @staticmethod
@@ -3047,6 +3053,7 @@ class Scene:
         wear: Mapping[str, Any] | None = None,
         error: float = 0.05,
         n: int | None = None,
+        grid: Grid | None = None,
         quiet: bool = False,
     ) -> Scene:
         """Make the scene of a rough ball on a flat.
@@ -3059,7 +3066,7 @@ class Scene:
             Measured heights, a random surface, or the file of an instrument.
         R : float
             Radius of the ball [m]: flats would touch over the whole grid.
-        W, mu, T, shift, sigma_B, cycles, wear, error, n, quiet
+        W, mu, T, shift, sigma_B, cycles, wear, error, n, grid, quiet
             As in :func:`ball_on_flat`; `error` is 5 % by default.
         """
 
@@ -3690,7 +3697,10 @@ def channel_crack(film_: Elastic, below: Elastic) -> float:
 def check_settings(settings: Settings) -> None:
     """Fails if a setting has no meaning."""
 
-def check_sides(shape: tuple[int, int], spacing: tuple[float, float]) -> None:
+def check_sides(
+    shape: tuple[SupportsIndex, SupportsIndex],
+    spacing: tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex],
+) -> None:
     """Refuse a map of a file that is larger or smaller than any instrument measures."""
 
 def chosen_depths(
@@ -3865,7 +3875,9 @@ def find_material(name: str, materials: Sequence[Material]) -> Material | None:
     The case counts in a formula, and in a name that differs from one in its case alone.
     """
 
-def find_turns(record: NDArray[np.float64], part: float, outer: float) -> NDArray[np.int64]:
+def find_turns(
+    record: Incomplete, part: SupportsFloat | SupportsIndex, outer: SupportsFloat | SupportsIndex
+) -> Incomplete:
     """
     Indices of the points where a record goes back by more than a part of its range.
 
@@ -3951,7 +3963,7 @@ def largest_of_samples(
     The value, its place along the line, depth, layer and error.
     """
 
-def limit_threads(count: int) -> None:
+def limit_threads(count: SupportsIndex) -> None:
     """
     Limit the work that the calling thread asks for to a number of threads of its own.
 
@@ -3997,16 +4009,16 @@ def main_sections(outline: Outline) -> list[tuple[float | None, float | None, fl
     own there.
     """
 
-def material_quantities() -> list[tuple[str, str, str]]:
-    """Names, units and meanings of the numbers of materials."""
-
 def map_from_heights(
     heights: Any,
     *,
-    spacing: tuple[float, float],
+    spacing: tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex],
     missing: Literal["refuse", "crop", "fill"],
 ) -> tuple[SurfaceMap, float]:
     """Build the map of measured heights less their mean; return it and its S_q [m]."""
+
+def material_quantities() -> list[tuple[str, str, str]]:
+    """Names, units and meanings of the numbers of materials."""
 
 def materials(file: str | PathLike[str] | None = None) -> list[Material]:
     """The materials that come with the package, or the materials of a file."""
@@ -4437,6 +4449,7 @@ __all__ = [
     "arrest",
     "channel_crack",
     "check_settings",
+    "check_sides",
     "chosen_depths",
     "coated_indentation",
     "continued_pressure",
@@ -4458,6 +4471,7 @@ __all__ = [
     "ellipse_factor",
     "equivalent_range",
     "find_material",
+    "find_turns",
     "goodman_stick_ratio",
     "graded",
     "hertz",
@@ -4472,6 +4486,7 @@ __all__ = [
     "line_through",
     "loops",
     "main_sections",
+    "map_from_heights",
     "material_quantities",
     "materials",
     "measure",
