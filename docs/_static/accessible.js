@@ -3,8 +3,8 @@ document.addEventListener("DOMContentLoaded", () => {
   document.querySelectorAll("p.caption[role=heading]:not([aria-level])").forEach((heading) => {
     heading.setAttribute("aria-level", "2");
   });
-  // Code that is wider than the page scrolls, by keys too.
-  document.querySelectorAll("pre").forEach((code) => code.setAttribute("tabindex", "0"));
+  // Code and tables that are wider than the page scroll, by keys too.
+  document.querySelectorAll("pre, .table-wrapper").forEach((part) => part.setAttribute("tabindex", "0"));
   const names = { "sidebar-drawer": "Site", "toc-drawer": "On this page" };
   for (const [kind, name] of Object.entries(names)) {
     document.querySelectorAll(`aside.${kind}`).forEach((aside) => aside.setAttribute("aria-label", name));
