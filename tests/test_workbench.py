@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import http.client
 import io
+import json
 import math
 import urllib.error
 import urllib.parse
@@ -21,7 +22,7 @@ import pyfret as fret
 pytest.importorskip("dash")
 
 from pyfret.workbench import edits
-from pyfret.workbench.answers import answer_in_full, preview
+from pyfret.workbench.answers import PageNumber, answer_in_full, preview
 from pyfret.workbench.doubts import doubt_of_sentence, doubts_of
 from pyfret.workbench.events import SCENE_EVENTS, Context, change_scene
 from pyfret.workbench.exports import read_link, write_file, write_link, write_script
@@ -32,6 +33,7 @@ from pyfret.workbench.judgements import first_yield, life_of
 from pyfret.workbench.names import OWN, names_of
 from pyfret.workbench.page import explore, open_workbench
 from pyfret.workbench.presets import FIRST, PRESETS, make_preset
+from pyfret.workbench.render import render_headline, render_numbers
 from pyfret.workbench.sessions import START, Sessions
 from pyfret.workbench.uploads import MOST_FILE, safe_parts
 from pyfret.workbench.variants import verdict
@@ -262,6 +264,17 @@ def test_dropped_files_are_recognized(text: str, kind: str, tmp_path: Path) -> N
         return
     assert describe(path)[0] == kind
     assert "Graph" in str(card)
+
+
+def test_a_number_without_a_value_has_no_value_for_programs() -> None:
+    rows = [PageNumber("largest x", "2.0", "Pa", 2.0), PageNumber("largest y", "no answer")]
+    shown = [row.as_row() for row in rows]
+    text = json.dumps(
+        [render_numbers(shown).to_plotly_json(), render_headline(shown)],
+        default=lambda part: part.to_plotly_json(),
+    )
+    assert text.count('"data-value"') == 2
+    assert '"None"' not in text
 
 
 def test_differences_count_beyond_both_errors() -> None:

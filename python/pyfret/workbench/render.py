@@ -24,11 +24,16 @@ def with_unit(row: dict[str, Any]) -> str:
     return f"{row['text']} {row['unit']}".strip() if row["value"] is not None else row["text"]
 
 
+def value_attribute(row: dict[str, Any]) -> dict[str, str]:
+    """Return the value of a number for programs; a number without a value has none."""
+    return {} if row["value"] is None else {"data-value": repr(row["value"])}
+
+
 def render_headline(rows: Sequence[dict[str, Any]]) -> list[Any]:
     """Make the cards of the largest numbers."""
     h = html()
     return [
-        h.Div([h.Dt(row["name"]), h.Dd(with_unit(row), **{"data-value": repr(row["value"])})])
+        h.Div([h.Dt(row["name"]), h.Dd(with_unit(row), **value_attribute(row))])
         for row in rows
         if row["name"].startswith(HEADLINE)
     ]
@@ -41,7 +46,7 @@ def render_numbers(rows: Sequence[dict[str, Any]]) -> Any:
     titles = ("number", "value with error", *(("note",) if has_notes else ()))
     lines = []
     for row in rows:
-        data = {"data-number": row["name"], "data-value": repr(row["value"])}
+        data = {"data-number": row["name"], **value_attribute(row)}
         cells = [h.Th(row["name"], scope="row"), h.Td(with_unit(row), **data)]
         if has_notes:
             cells.append(h.Td(row["note"], className="note"))
