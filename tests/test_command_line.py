@@ -55,6 +55,39 @@ def test_a_bad_scene_is_refused_with_one_sentence(
     assert not out.exists()
 
 
+def cells_of(line: str) -> set[str]:
+    """Return the cells of a line of a table."""
+    return set(re.split(r"\s{2,}", line.strip()))
+
+
+@pytest.mark.parametrize(
+    ("setting", "state"),
+    [
+        ("friction.mu=0.3", "partial slip"),
+        ("friction.mu=0.0", "no friction"),
+        ("path.1.T_x.mu_W=1.0", "gross slip"),
+    ],
+)
+def test_both_summaries_of_a_run_have_the_same_cells(
+    setting: str, state: str, scene_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "400")
+    place = tmp_path / "out.zarr"
+    without_shear = ["--set", "path.1.T_x=0.0", "--set", "path.2.T_x=0.0"] * (
+        state == "no friction"
+    )
+    run = fret_run(
+        "run", scene_file, "--set", "grid.n=16", "--set", setting, *without_shear, "-o", place
+    )
+    assert run.returncode == 0, run.stderr
+    printed = [cells_of(line) for line in run.stdout.splitlines()]
+    _, _, table = fret.open(place).summary().partition("-----\n")
+    rows = table.splitlines()[: len(fret.open(place).scene.path.branches)]
+    assert any(state in row for row in rows)
+    for row in rows:
+        assert any(cells_of(row) <= line for line in printed), (row, run.stdout)
+
+
 def test_a_bad_file_names_the_line_and_the_nearest_key(scene_file: Path, tmp_path: Path) -> None:
     bad = tmp_path / "bad.toml"
     lines = scene_file.read_text().replace("mu = 0.3", "mue = 0.3").splitlines()
