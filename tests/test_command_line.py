@@ -72,17 +72,17 @@ def test_both_summaries_of_a_run_have_the_same_cells(
     setting: str, state: str, scene_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("COLUMNS", "400")
-    place = tmp_path / "out.zarr"
+    store = tmp_path / "out.zarr"
     without_shear = ["--set", "path.1.T_x=0.0", "--set", "path.2.T_x=0.0"] * (
         state == "no friction"
     )
     run = fret_run(
-        "run", scene_file, "--set", "grid.n=16", "--set", setting, *without_shear, "-o", place
+        "run", scene_file, "--set", "grid.n=16", "--set", setting, *without_shear, "-o", store
     )
     assert run.returncode == 0, run.stderr
     printed = [cells_of(line) for line in run.stdout.splitlines()]
-    _, _, table = fret.open(place).summary().partition("-----\n")
-    rows = table.splitlines()[: len(fret.open(place).scene.path.branches)]
+    _, _, table = fret.open(store).summary().partition("-----\n")
+    rows = table.splitlines()[: len(fret.open(store).scene.path.branches)]
     assert any(state in row for row in rows)
     for row in rows:
         assert any(cells_of(row) <= line for line in printed), (row, run.stdout)

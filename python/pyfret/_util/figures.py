@@ -21,7 +21,9 @@ if TYPE_CHECKING:
 
         figure: ClassVar[str]
 
-        def _draw(self, *args: Any, **options: Any) -> Any: ...
+        def _draw(self, *args: Any, **options: Any) -> Any:
+            """Draw the figure of this object with the options of its plot function."""
+            ...
 
 
 __all__ = ["Figured", "Figures", "figures_of", "register_figures"]

@@ -39,7 +39,7 @@ class Unit:
 
     @property
     def has_range(self) -> bool:
-        """Whether the row has a plausible range."""
+        """Whether the table of quantities has a plausible range for this one."""
         return self.quantity in plausible_quantities()
 
     def convert(self, value: Any) -> float:

@@ -140,7 +140,10 @@ def cell_error(
 
 
 def largest_of_row(judged: JudgedSection, states: LoopStates, row: NDArray[np.float64]) -> float:
-    """Return the largest damage of a row of points, of their stress over the increments."""
+    """Return the largest damage at points of the worst layer.
+
+    ``row`` is their stress: (increment, point, component).
+    """
     of_loops = np.einsum("lmi,ipc->lmpc", states.weights, row)
     fields = judged.judge(judged.worst_layer, of_loops, states.rows[:, 2])
     return float(fields["damage"].max())

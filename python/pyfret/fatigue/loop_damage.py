@@ -94,7 +94,10 @@ class JudgedSection:
     def _parts(
         self, stress: xr.DataArray, states: LoopStates, *, bounded: bool
     ) -> Iterator[tuple[int, NDArray[np.float64], Mapping[str, NDArray[np.float64]]]]:
-        """Yield places and damage of the layers that have a material, one depth at a time."""
+        """Yield the index, the loop stress and the damage fields of each depth with a material.
+
+        The stress is (loop, moment, place, component).
+        """
         kept = np.searchsorted(stress.increment.values, states.increments)
         values = stress.values[kept]
         counts = np.ascontiguousarray(states.rows[:, 2])

@@ -211,7 +211,7 @@ def grow(
     x, azimuth, offset = cycle_of.place(x, plane, angle, friction)
     growth = cycle_of.contact.growth(
         x=x,
-        start=cycle_of.shortest(0.02) if start is None else as_number(start),
+        start=cycle_of.shortest_crack(0.02) if start is None else as_number(start),
         end=cycle_of.half_width if end is None else as_number(end),
         direction=direction,
         tolerance=tolerance,
@@ -275,15 +275,18 @@ class Cycle:
         """Half the largest width of the contact along the shear [m]."""
         return self.largest.half_width(self.lines[0].angle)
 
-    def shortest(self, part: float) -> float:
-        """A length that is a part of half the width of the contact, and beyond the coatings [m]."""
+    def shortest_crack(self, part: float) -> float:
+        """Return the length of a shortest crack [m]: a part of half the width of the contact.
+
+        It is longer than BEYOND times the thickness of the coatings.
+        """
         thickness = sum(coating.thickness for coating in self.body.coatings)
         return max(part * self.half_width, BEYOND * thickness)
 
     @property
     def lengths(self) -> NDArray[np.float64]:
         """Return the default lengths of cracks [m]."""
-        shortest = self.shortest(SHORTEST)
+        shortest = self.shortest_crack(SHORTEST)
         longest = max(LONGEST * self.half_width, 2.0 * shortest)
         return np.geomspace(shortest, longest, LENGTHS)
 

@@ -343,7 +343,10 @@ class Cracks(Saveable, Labelled, Figured):
     def _range(
         self, threshold: Threshold | None, more: NDArray[np.float64] | float
     ) -> NDArray[np.float64]:
-        """Return the range of K with `more` added to K_max."""
+        """Return the positive part of the range of K, with `more` added to K_max.
+
+        With a threshold it is the range at R = 0 that is as severe.
+        """
         _, largest, smallest = self._curve(more)
         if threshold is None or not np.all(np.isfinite(largest)):
             return np.maximum(largest, 0.0) - np.maximum(smallest, 0.0)

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.ticker import EngFormatter, MaxNLocator
 
 from pyfret._core import LoadPath
-from pyfret.plot.scales import MICRO, Scale, Units, bears, run_of, scales
+from pyfret.plot.scales import MICRO, Scale, Units, has_friction_scale, run_of, scales
 from pyfret.plot.sizes import Width
 from pyfret.plot.style import axes, note, styled
 from pyfret.quantities import FrictionCoefficient, quantities
@@ -140,7 +140,7 @@ def loop_scales(result: Run, units: Units, *, torsion: bool) -> tuple[Scale, Sca
     if flat and units == "dimensionless":
         raise ValueError('units = "dimensionless": a line contact has no approach; give "SI"')
     dimensionless = scales(result.dataset.attrs, units).dimensionless and not flat
-    if not (dimensionless and bears(mu) and W > 0.0):
+    if not (dimensionless and has_friction_scale(mu) and W > 0.0):
         shift = Scale(1e-6, "µrad", is_unit=True) if torsion else MICRO
         return Scale(1.0, force, is_unit=True), shift
     approach, a = mu * result.delta_H, result.a_H
@@ -229,7 +229,7 @@ def load_path(
         largest = float(np.nanmax(np.abs(values)))
         if name == "W":
             label = r"$W/W_\mathrm{max}$"
-        elif force and W_max > 0.0 and bears(mu):
+        elif force and W_max > 0.0 and has_friction_scale(mu):
             largest, label = mu * W_max, rf"${symbol}/({times}W_\mathrm{{max}})$"
             label = label if times else rf"${symbol}/W_\mathrm{{max}}$"
         else:

@@ -50,8 +50,8 @@ MICRO = Scale(1e-6, "µm", is_unit=True)
 MEGA = Scale(1e6, "MPa", is_unit=True)
 
 
-def bears(mu: float) -> bool:
-    """Whether mu times a force is a yardstick."""
+def has_friction_scale(mu: float) -> bool:
+    """Whether mu is finite and positive, so that mu times a force is a unit of friction forces."""
     return bool(np.isfinite(mu)) and mu > 0.0
 
 
@@ -66,7 +66,11 @@ def scales(attrs: Mapping[Any, Any], units: Units, *, mu: float = 1.0) -> Scales
         return Scales(MICRO, MEGA, MEGA)
     length = Scale(float(attrs["a_H"]), "a_H", is_unit=False)
     stress = Scale(float(attrs["p_H"]), "p_H", is_unit=False)
-    shear = Scale(mu * stress.value, r"(\mu\, p_H)", is_unit=False) if bears(mu) else stress
+    shear = (
+        Scale(mu * stress.value, r"(\mu\, p_H)", is_unit=False)
+        if has_friction_scale(mu)
+        else stress
+    )
     return Scales(length, stress, shear)
 
 

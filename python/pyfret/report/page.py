@@ -90,7 +90,7 @@ def write_page(
         cycles="".join(cycles_table(result, direction) for direction in directions(result)),
         plan=plan(result),
         sources=cited(result),
-        surfaces="" if wear is None else SURFACES.format(of=html(wear.of_loops)),
+        surfaces="" if wear is None else SURFACES.format(of=html(wear.loops_note)),
         worn="" if wear is None else f'<pre tabindex="0">{html(in_letters(wear.summary()))}</pre>',
         more="".join(
             picture(caption, figure)

@@ -311,7 +311,7 @@ class WearResult(Saveable, Labelled, Figured):
         lines.append(
             f"energy: {with_error(last['dissipated'])} {energy}, "
             f"{with_error(last['dissipated_per_cycle'])} {energy} in the last cycle, "
-            f"{self.of_loops}"
+            f"{self.loops_note}"
         )
         if not self.scene.friction.is_constant:
             mu = with_error(last["mu"], last.get("mu_error", 0.0) * last["mu"])
@@ -347,7 +347,7 @@ class WearResult(Saveable, Labelled, Figured):
         return f"{with_error(value, error * value)} MPa"
 
     @property
-    def of_loops(self) -> str:
+    def loops_note(self) -> str:
         """Describe the path of the friction loops, which is not the loop of the scene."""
         text = "on the worn surfaces"
         if self.table.get("cycling") == "sliding":
