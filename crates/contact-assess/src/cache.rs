@@ -8,15 +8,17 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use contact_core::Error;
-use contact_subsurface::{Border, Depth, Line, Moments};
+use contact_subsurface::{Border, Continuation, Depth, Line, Moments};
 
 use super::history::History;
 use super::prepared_points::PreparedPoints;
 
 /// Most memory of the histories of sections \[bytes\].
-pub const MOST_HISTORIES: usize = 96 << 20;
+pub const MOST_HISTORIES: usize = 64 << 20;
 /// Most memory of prepared points \[bytes\].
 pub const MOST_POINTS: usize = 64 << 20;
+/// Most memory of tractions continued within the cells \[bytes\].
+pub const MOST_CONTINUATIONS: usize = 32 << 20;
 /// Most memory of moments \[bytes\].
 pub const MOST_MOMENTS: usize = 32 << 20;
 /// Most lines whose borders are kept.
@@ -31,8 +33,8 @@ pub(super) enum Cells {
     Doubled(usize),
 }
 
-/// Numbers of moments and the cells of their tractions.
-pub(super) type StateKey = (Vec<usize>, Cells);
+/// A line, numbers of moments, and the cells of their tractions.
+pub(super) type StateKey = (Line, Vec<usize>, Cells);
 
 /// Stress below one body over one cycle of a contact, kept for the next question.
 ///
@@ -43,8 +45,9 @@ pub struct StressCache {
     /// By line, depth, and whether plastic strain is included.
     histories: Shelf<(Line, Depth, bool), History>,
     points: Shelf<StateKey, PreparedPoints>,
-    moments: Shelf<Vec<usize>, Moments>,
-    borders: Shelf<(Line, StateKey), Vec<Border>>,
+    moments: Shelf<(Vec<usize>, Cells), Moments>,
+    continuations: Shelf<(Line, usize, Cells), Continuation>,
+    borders: Shelf<StateKey, Vec<Border>>,
 }
 
 impl StressCache {
@@ -77,13 +80,14 @@ impl StressCache {
         Ok(points)
     }
 
-    /// Returns moments of a cycle from the cache; `make` reads them if they are not there.
+    /// Returns moments of a cycle from the cache, their tractions on `cells`; `make` reads them if they are not
+    /// there.
     pub(super) fn moments(
         &self,
-        which: &[usize],
+        (which, cells): (&[usize], Cells),
         make: impl FnOnce() -> Result<Moments, Error>,
     ) -> Result<Arc<Moments>, Error> {
-        let which = which.to_vec();
+        let which = (which.to_vec(), cells);
         if let Some(moments) = self.moments.get(&which) {
             return Ok(moments);
         }
@@ -95,11 +99,25 @@ impl StressCache {
         Ok(moments)
     }
 
+    /// The tractions of a moment within its cells below a line, if they are kept.
+    pub(super) fn continuation(&self, key: &(Line, usize, Cells)) -> Option<Continuation> {
+        self.continuations
+            .get(key)
+            .map(|kept| Continuation::clone(&kept))
+    }
+
+    /// Keeps the tractions of a moment within its cells while there is room.
+    pub(super) fn keep_continuation(&self, key: (Line, usize, Cells), made: &Continuation) {
+        let bytes = made.bytes();
+        self.continuations
+            .insert(key, &Arc::new(made.clone()), bytes, MOST_CONTINUATIONS);
+    }
+
     /// Returns the borders of contact and slip below a line at some instants of the cycle, from the cache;
     /// `make` finds them if they are not there.
     pub(super) fn borders(
         &self,
-        key: (Line, StateKey),
+        key: StateKey,
         make: impl FnOnce() -> Result<Vec<Border>, Error>,
     ) -> Result<Arc<Vec<Border>>, Error> {
         if let Some(borders) = self.borders.get(&key) {

@@ -4,10 +4,7 @@
 use std::sync::Arc;
 
 use contact_core::Error;
-use contact_core::convolution::Tractions;
-use contact_core::scene::Grid;
-use contact_subsurface::{Border, Depth, DoubledCells, Line, Point, Zone, borders};
-use ndarray::Array2;
+use contact_subsurface::{Border, Depth, DoubledCells, Line, Point, Zone};
 
 use super::cache::Cells;
 use super::history::History;
@@ -100,25 +97,23 @@ impl<J: Judge> Climb<'_, J> {
         let count = self.site.cycle.count();
         let step = count.div_ceil(BORDER_MOMENTS).max(1);
         let which: Vec<usize> = (0..count).rev().step_by(step).collect();
-        let key = (self.line, (which.clone(), Cells::Grid));
+        let key = (self.line, which.clone(), Cells::Grid);
         self.site.cache.borders(key, || self.find_borders(&which))
     }
 
     /// Finds the crossings of the line with the borders of some moments. Crossings closer together than half of
     /// [`ON_BORDER`] cells count once.
     fn find_borders(&self, which: &[usize]) -> Result<Vec<Border>, Error> {
-        let moments = self.site.moments(which)?;
+        let of_moments = self.site.borders(self.line, which, Cells::Grid)?;
         let mut borders: Vec<Border> = Vec::new();
-        for (tractions, stick) in moments.tractions.iter().zip(&moments.stick) {
-            for border in borders_of_moment(self.site.grid, tractions, stick, self.line)? {
-                let distance =
-                    |b: &Border| (self.distance_along(b) - self.distance_along(&border)).abs();
-                if !borders
-                    .iter()
-                    .any(|b| distance(b) < ON_BORDER / 2.0 * self.cell())
-                {
-                    borders.push(border);
-                }
+        for border in of_moments.into_iter().flatten() {
+            let distance =
+                |b: &Border| (self.distance_along(b) - self.distance_along(&border)).abs();
+            if !borders
+                .iter()
+                .any(|b| distance(b) < ON_BORDER / 2.0 * self.cell())
+            {
+                borders.push(border);
             }
         }
         Ok(borders)
@@ -161,12 +156,12 @@ impl<J: Judge> Climb<'_, J> {
     pub(super) fn representative_moments(&self, place: Place) -> Result<Vec<usize>, Error> {
         let count = self.site.cycle.count();
         let all_moments: Vec<usize> = (0..count).collect();
-        let last = self.site.moments(&[count - 1])?;
+        let last = self.site.moments(&[count - 1], Cells::Grid)?;
         let touching = last.tractions[0][2].iter().filter(|p| **p > 0.0).count();
         if touching * count <= CHEAP || count <= REPRESENTATIVES {
             return Ok(all_moments);
         }
-        let history = self.site.full_history(&[self.point(place)])?;
+        let history = self.site.full_history(self.line, &[self.point(place)])?;
         let difference = |a: usize, b: usize| -> f64 {
             (0..6)
                 .map(|c| (history.stress[(a, 0, c)] - history.stress[(b, 0, c)]).powi(2))
@@ -330,9 +325,11 @@ impl<J: Judge> Climb<'_, J> {
             }
             let there = match border {
                 None => vec![s],
-                Some(border) => self.coarser_borders(border, which, (pairing, cells))?,
+                Some(border) => self.coarser_borders(border, which, pairing)?,
             };
-            let at = self.site.prepare(which, Cells::Doubled(pairing))?;
+            let at = self
+                .site
+                .prepare(self.line, which, Cells::Doubled(pairing))?;
             let places: Vec<Place> = there.into_iter().map(|s| [s, z]).collect();
             let scores = self.scores(&at, &places)?.into_iter();
             let coarse = scores.fold(f64::NEG_INFINITY, f64::max);
@@ -349,22 +346,17 @@ impl<J: Judge> Climb<'_, J> {
         &self,
         border: &Border,
         which: &[usize],
-        (pairing, cells): (usize, &DoubledCells),
+        pairing: usize,
     ) -> Result<Vec<f64>, Error> {
         let s = self.distance_along(border);
-        let (line, shift) = self.line.with_origin(cells.middle);
-        let key = (self.line, (which.to_vec(), Cells::Doubled(pairing)));
+        let key = (self.line, which.to_vec(), Cells::Doubled(pairing));
         let borders = self.site.cache.borders(key, || {
-            let coarse = self.site.moments(which)?.coarsened(cells);
-            let mut borders = Vec::new();
-            for (tractions, stick) in coarse.tractions.iter().zip(&coarse.stick) {
-                borders.extend(borders_of_moment(&cells.grid, tractions, stick, line)?);
-            }
-            Ok(borders)
+            let of_moments = self
+                .site
+                .borders(self.line, which, Cells::Doubled(pairing))?;
+            Ok(of_moments.into_iter().flatten().collect())
         })?;
-        let places = borders
-            .iter()
-            .map(|other| line.nearest_distance(other.x, other.y) + shift);
+        let places = borders.iter().map(|other| self.distance_along(other));
         let mut beside: Vec<f64> = places
             .filter(|at| (at - s).abs() < BESIDE * self.cell())
             .collect();
@@ -409,20 +401,4 @@ impl<J: Judge> Climb<'_, J> {
         };
         self.line.point(s, depth)
     }
-}
-
-/// The crossings of a line with the rim of the contact and the border of the stick zone at one moment, from its
-/// tractions and stick cells.
-fn borders_of_moment(
-    grid: &Grid,
-    [q_x, q_y, p]: &[Array2<f64>; 3],
-    stick: &Array2<bool>,
-    line: Line,
-) -> Result<Vec<Border>, Error> {
-    let tractions = Tractions {
-        q_x: q_x.as_slice(),
-        q_y: q_y.as_slice(),
-        p: p.as_slice(),
-    };
-    borders(grid, &tractions, stick.as_slice(), Some(line))
 }

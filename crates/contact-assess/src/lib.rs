@@ -29,7 +29,7 @@ mod worst;
 pub use average::{Averaging, Distance, judge_means};
 pub use by_criterion::{CriterionJudge, from_fatigue, inclination, layer_materials};
 pub use by_yield::YieldJudge;
-pub use cache::{MOST_HISTORIES, MOST_MOMENTS, MOST_POINTS, StressCache};
+pub use cache::{MOST_CONTINUATIONS, MOST_HISTORIES, MOST_MOMENTS, MOST_POINTS, StressCache};
 pub use judged::{Judge, Judged, judge};
 pub use mean::{LargestMean, error_of_largest_mean, errors_of_means, largest_mean};
 pub use range::{MarginRange, RangeOptions, margin_range};

@@ -9,9 +9,6 @@ use contact_subsurface::{Moments, Point, Points};
 
 use super::history::{History, Strains};
 
-/// Memory of prepared points for each cell and moment: loads on cells and as points, and their
-/// continuation to the rim \[bytes\].
-const BYTES_OF_POINTS: usize = 120;
 /// Most points whose stress is kept by prepared points.
 const MOST_POINTS: usize = 2000;
 
@@ -39,21 +36,21 @@ fn key_of(&(x, y, depth): &Point) -> PointKey {
 }
 
 impl PreparedPoints {
-    /// Keeps points on a grid of so many cells, under moments.
+    /// Keeps points under moments.
     pub(super) fn new(
-        (points, cells): (Points, usize),
+        points: Points,
         moments: &Moments,
         middle: (f64, f64),
         stop: Arc<AtomicBool>,
     ) -> Self {
         let count = moments.tractions.len();
         Self {
-            points,
             moments: count,
             strains: Strains::from_moments(moments, true),
             middle,
             stop,
-            bytes: BYTES_OF_POINTS * count * cells,
+            bytes: points.bytes(),
+            points,
             computed: Mutex::default(),
         }
     }

@@ -4,11 +4,15 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use contact_core::Error;
+use contact_core::convolution::Tractions;
 use contact_core::scene::{Body, Grid, ResidualStress};
+use contact_core::stop::unless;
 use contact_subsurface::{
-    CycleSource, Depth, DoubledCells, Line, Moments, Point, Points, Section, Side,
+    Border, Continuation, CycleSource, Depth, DoubledCells, Line, Moments, Point, Points, Section,
+    Side, States,
 };
 use ndarray::Axis;
+use rayon::prelude::*;
 
 use super::cache::{Cells, StateKey, StressCache};
 use super::history::{History, Strains};
@@ -89,9 +93,14 @@ impl Site<'_> {
         }
         let all_moments: Vec<usize> = (0..moments).collect();
         for which in all_moments.chunks(MOMENTS_AT_ONCE) {
-            let now = self.moments(which)?;
+            let now = self.moments(which, Cells::Grid)?;
             let strains = Strains::from_moments(&now, strain);
+            let continuations = &self.continuations(line, which, Cells::Grid)?;
             now.with_states(Some(&ResidualStress::default()), &self.stop, |states| {
+                let states = States {
+                    continuations,
+                    ..states
+                };
                 let section = Section::new(self.body, self.side, self.grid, line, states)?;
                 section.pass_stress(depths, &mut histories, |history, depth, stresses| {
                     for (k, stress) in which.iter().zip(stresses) {
@@ -127,47 +136,114 @@ impl Site<'_> {
         history
     }
 
-    /// Some moments of the cycle.
-    pub(super) fn moments(&self, which: &[usize]) -> Result<Arc<Moments>, Error> {
-        self.cache.moments(which, || self.cycle.moments(which))
-    }
-
-    /// Prepares the stress of the loads at points under some moments, by the tractions on `cells`.
-    pub(super) fn prepare(
-        &self,
-        which: &[usize],
-        cells: Cells,
-    ) -> Result<Arc<PreparedPoints>, Error> {
-        let key: StateKey = (which.to_vec(), cells);
-        self.cache.points(&key, || {
-            let moments = self.moments(which)?;
-            match cells {
-                Cells::Grid => self.prepare_on(self.grid, &moments, (0.0, 0.0)),
-                Cells::Doubled(pairing) => {
-                    let cells = &DoubledCells::new_pair(self.grid)[pairing];
-                    self.prepare_on(&cells.grid, &moments.coarsened(cells), cells.middle)
-                }
+    /// Some moments of the cycle, with the tractions on `cells`.
+    pub(super) fn moments(&self, which: &[usize], cells: Cells) -> Result<Arc<Moments>, Error> {
+        self.cache.moments((which, cells), || match cells {
+            Cells::Grid => self.cycle.moments(which),
+            Cells::Doubled(pairing) => {
+                let moments = self.moments(which, Cells::Grid)?;
+                Ok(moments.coarsened(&DoubledCells::new_pair(self.grid)[pairing]))
             }
         })
     }
 
-    /// Prepares the stress of the loads at points under moments on a grid, whose middle lies at `middle` \[m\].
-    fn prepare_on(
+    /// The grid of `cells`, and its middle \[m\].
+    fn grid_of(&self, cells: Cells) -> (Grid, (f64, f64)) {
+        match cells {
+            Cells::Grid => (*self.grid, (0.0, 0.0)),
+            Cells::Doubled(pairing) => {
+                let cells = &DoubledCells::new_pair(self.grid)[pairing];
+                (cells.grid, cells.middle)
+            }
+        }
+    }
+
+    /// The tractions of some moments within their `cells` below a line, each computed once.
+    fn continuations(
         &self,
-        grid: &Grid,
-        moments: &Moments,
-        middle: (f64, f64),
-    ) -> Result<PreparedPoints, Error> {
-        let none = ResidualStress::default();
-        let points = moments.with_states(Some(&none), &self.stop, |states| {
-            Points::new(self.body, self.side, grid, states)
-        })?;
-        Ok(PreparedPoints::new(
-            (points, grid.cells()),
-            moments,
-            middle,
-            self.stop.clone(),
-        ))
+        line: Line,
+        which: &[usize],
+        cells: Cells,
+    ) -> Result<Vec<Continuation>, Error> {
+        let mut continued: Vec<Option<Continuation>> = which
+            .iter()
+            .map(|n| self.cache.continuation(&(line, *n, cells)))
+            .collect();
+        let missing: Vec<usize> = (0..which.len())
+            .filter(|k| continued[*k].is_none())
+            .collect();
+        if !missing.is_empty() {
+            let moments = self.moments(which, cells)?;
+            let (grid, middle) = self.grid_of(cells);
+            let line_on_grid = line.with_origin(middle).0;
+            let compute = |k: &usize| {
+                unless(&self.stop)?;
+                let [q_x, q_y, p] = moments.tractions[*k]
+                    .each_ref()
+                    .map(|field| field.as_slice());
+                let stick = moments.stick.get(*k).and_then(|stick| stick.as_slice());
+                let tractions = Tractions { q_x, q_y, p };
+                Continuation::new(line_on_grid, (self.body, &grid), &tractions, stick)
+            };
+            let computed: Vec<_> = missing
+                .par_iter()
+                .map(compute)
+                .collect::<Result<_, Error>>()?;
+            for (k, made) in missing.into_iter().zip(computed) {
+                self.cache.keep_continuation((line, which[k], cells), &made);
+                continued[k] = Some(made);
+            }
+        }
+        Ok(continued.into_iter().flatten().collect())
+    }
+
+    /// The borders of contact and stick zone below a line at some moments, by the tractions on `cells`. Those of
+    /// every moment stand in a list of their own.
+    pub(super) fn borders(
+        &self,
+        line: Line,
+        which: &[usize],
+        cells: Cells,
+    ) -> Result<Vec<Vec<Border>>, Error> {
+        let (x_0, y_0) = self.grid_of(cells).1;
+        let line_on_grid = line.with_origin((x_0, y_0)).0;
+        let moved = |border: Border| Border {
+            x: border.x + x_0,
+            y: border.y + y_0,
+            ..border
+        };
+        let continued = self.continuations(line, which, cells)?;
+        let of_moment = |continued: &Continuation| {
+            let borders = continued.borders(line_on_grid);
+            borders.into_iter().map(moved).collect()
+        };
+        Ok(continued.iter().map(of_moment).collect())
+    }
+
+    /// Prepares the stress of the loads at points below a line under some moments, by the tractions on `cells`.
+    pub(super) fn prepare(
+        &self,
+        line: Line,
+        which: &[usize],
+        cells: Cells,
+    ) -> Result<Arc<PreparedPoints>, Error> {
+        let key: StateKey = (line, which.to_vec(), cells);
+        self.cache.points(&key, || {
+            let moments = self.moments(which, cells)?;
+            let continuations = &self.continuations(line, which, cells)?;
+            let (grid, middle) = self.grid_of(cells);
+            let none = ResidualStress::default();
+            let points = moments.with_states(Some(&none), &self.stop, |states| {
+                let states = States {
+                    continuations,
+                    ..states
+                };
+                let line = line.with_origin(middle).0;
+                Points::new_below(line, (self.body, self.side), &grid, states)
+            })?;
+            let stop = self.stop.clone();
+            Ok(PreparedPoints::new(points, &moments, middle, stop))
+        })
     }
 
     /// The history of prepared points, with the residual stress of the layers.
@@ -181,12 +257,12 @@ impl Site<'_> {
         Ok(Arc::unwrap_or_clone(history))
     }
 
-    /// The history of points over the whole cycle.
-    pub(super) fn full_history(&self, points: &[Point]) -> Result<History, Error> {
+    /// The history of points below a line over the whole cycle.
+    pub(super) fn full_history(&self, line: Line, points: &[Point]) -> Result<History, Error> {
         let all_moments: Vec<usize> = (0..self.cycle.count()).collect();
         let mut whole = History::zeros((all_moments.len(), points.len()), self.body.yields());
         for which in all_moments.chunks(MOMENTS_AT_ONCE) {
-            let prepared = self.prepare(which, Cells::Grid)?;
+            let prepared = self.prepare(line, which, Cells::Grid)?;
             whole.copy_moments(which, &self.history(&prepared, points)?);
         }
         Ok(whole)

@@ -61,7 +61,7 @@ pub fn find_worst_point<J: Judge>(
     let deepest = of_layer().fold(0.0, f64::max);
     let borders = climb.borders()?;
     let which = climb.representative_moments(highest.0)?;
-    let prepared = site.prepare(&which, Cells::Grid)?;
+    let prepared = site.prepare(judged.line, &which, Cells::Grid)?;
     if layer == 0 && top <= 0.0 {
         let places_beside = climb.worst_borders(&borders, judged);
         let scores = climb.scores(&prepared, &places_beside)?;
@@ -93,7 +93,7 @@ pub fn find_worst_point<J: Judge>(
     let history = if whole {
         site.history(&prepared, &[point])?
     } else {
-        site.full_history(&[point])?
+        site.full_history(judged.line, &[point])?
     };
     let Some(mut judgement) = climb.judge_points(&[point], &history)?.first().copied() else {
         return Ok(None);

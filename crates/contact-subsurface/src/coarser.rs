@@ -68,6 +68,7 @@ impl CoarserCells {
             tractions: &tractions,
             stick: states.stick.map(|_| &stick[..]),
             eigenstress: &eigenstress,
+            continuations: &[],
             ..states.clone()
         };
         let points = Arc::new(Points::new(body, side, &cells.grid, states)?);

@@ -25,6 +25,7 @@ mod body_maximum;
 mod borders;
 mod climb;
 mod coarser;
+mod continuation;
 mod cycle_recorder;
 mod depth;
 mod divided;
@@ -58,6 +59,7 @@ mod uniform;
 
 pub use body_maximum::{BodyMaximum, BodySearch, Loads};
 pub use borders::{Border, Zone, borders};
+pub use continuation::Continuation;
 pub use cycle_recorder::CycleRecorder;
 pub use depth::{Depth, Point, Side, default_depths, depths};
 pub use doubled_cells::DoubledCells;

@@ -115,6 +115,7 @@ impl Moments {
             eigenstress: &self.eigenstress,
             stick: Some(&stick),
             stop: stop.clone(),
+            continuations: &[],
         })
     }
 

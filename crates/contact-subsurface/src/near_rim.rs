@@ -7,16 +7,20 @@
 //! part. The parts' responses depend on offsets and depth alone: all samples of a depth share them.
 
 use std::cell::RefCell;
-use std::ops::Range;
+use std::sync::Arc;
 
 use contact_core::convolution::Tractions;
 use contact_core::kernels::{DepthKernel, Stress};
 use contact_core::scene::{Body, Grid};
 use contact_core::zones::Continued;
+use rayon::prelude::*;
 
+use super::continuation::{
+    Continuation, DIVIDED_CELLS, Window, continue_tractions, locate_cell, widen,
+};
 use super::divided::{Divided, Division, Fineness, Whole, slopes};
 use super::excess::ExcessTables;
-use super::loads::{Plane, snap_to_half_cells};
+use super::loads::Plane;
 use super::{Depth, Side};
 
 /// Deepest samples, in cells.
@@ -31,12 +35,6 @@ const SMOOTH: u8 = 12;
 /// Depth in cells down to which the slope counts: variations of the period of a cell decay like
 /// exp(-2 pi z).
 const AT_SURFACE: f64 = 1.0;
-/// Tractions are not continued to an assumed rim on a layer thinner than THIN cells with E/E_below
-/// above CONTRAST or below 1/CONTRAST.
-const THIN: f64 = 2.0;
-const CONTRAST: f64 = 2.0;
-/// Cells on each side of a sample that are divided.
-const DIVIDED_CELLS: usize = 3;
 /// Rows of s_zz, s_xz, s_yz with the traction whose negative they are on the surface.
 const TRACTION_ROWS: [(usize, usize); 3] = [(2, 2), (4, 0), (5, 1)];
 
@@ -44,7 +42,7 @@ const TRACTION_ROWS: [(usize, usize); 3] = [(2, 2), (4, 0), (5, 1)];
 pub(super) struct NearRim {
     plane: Plane,
     side: Side,
-    states: Vec<Continued>,
+    states: Vec<Arc<Continued>>,
     /// Difference of continued and constant tractions in the cells near borders, by state.
     excess: Vec<ExcessTables>,
 }
@@ -62,37 +60,29 @@ pub(super) struct Parts {
 }
 
 impl NearRim {
-    /// Continues the tractions of each state near rims and stick borders, for samples in the cells of these
-    /// columns and rows.
+    /// Continues the tractions of each state near rims and stick borders, for samples in the cells of a window
+    /// of columns and rows. States with `continuations` there use these.
     pub(super) fn new(
-        body: &Body,
+        (body, side): (&Body, Side),
         grid: &Grid,
-        side: Side,
         states: &[Tractions<'_>],
         stick: &[&[bool]],
-        (columns, rows): (Range<usize>, Range<usize>),
+        continuations: &[Continuation],
+        window: &Window,
     ) -> Self {
-        // One more cell on each side for the interpolation, one for samples on a border.
-        let wider = |cells: Range<usize>, count: usize| {
-            cells.start.saturating_sub(DIVIDED_CELLS + 2)
-                ..(cells.end + DIVIDED_CELLS + 2).min(count)
-        };
-        let window = (wider(columns, grid.nx), wider(rows, grid.ny));
-        let cell = if grid.ny == 1 {
-            grid.dx
-        } else {
-            grid.dx.max(grid.dy)
-        };
-        let below = body.coatings.iter().skip(1).map(|layer| layer.material);
-        let below = below.chain([body.substrate]);
-        let thin = body.coatings.iter().zip(below).any(|(layer, below)| {
-            let ratio = layer.material.E / below.E;
-            layer.thickness < THIN * cell && !(1.0 / CONTRAST..=CONTRAST).contains(&ratio)
-        });
+        let window = widen(window, grid);
         let of_state = |(n, tractions): (usize, &Tractions<'_>)| {
-            Continued::new(grid, tractions, stick.get(n).copied(), &window, thin)
+            let continuation = continuations.get(n);
+            let continuation = continuation.filter(|state| state.covers(grid, &window));
+            continuation.map_or_else(
+                || {
+                    let stick = stick.get(n).copied();
+                    Arc::new(continue_tractions(body, grid, tractions, stick, &window))
+                },
+                |state| Arc::clone(&state.tractions),
+            )
         };
-        let states: Vec<_> = states.iter().enumerate().map(of_state).collect();
+        let states: Vec<_> = states.par_iter().enumerate().map(of_state).collect();
         let flat = grid.ny == 1;
         let tables = states.iter().map(|state| {
             let is_near = |cell: (usize, usize)| state.distance(cell) <= FARTHEST;
@@ -104,19 +94,6 @@ impl NearRim {
             excess: tables.collect(),
             states,
         }
-    }
-
-    /// The cell (column, row) nearest to a place x, y \[m\], and the offset of the place from its middle in
-    /// cells.
-    pub(super) fn locate(grid: &Grid, x: f64, y: f64) -> ((usize, usize), (f64, f64)) {
-        let Plane { n, d, .. } = Plane::new(grid, false);
-        let along = |v: f64, n: usize, d: f64| {
-            let position = v / d + (n - 1) as f64 / 2.0;
-            let cell = position.round().clamp(0.0, (n - 1) as f64);
-            (cell as usize, snap_to_half_cells(position - cell))
-        };
-        let ((i, s), (j, t)) = (along(x, n.0, d.0), along(y, n.1, d.1));
-        ((i, j), (s, t))
     }
 
     /// Divides the cells around a sample at a depth into parts, for all cells and states in common; `offset` is
@@ -287,7 +264,7 @@ impl NearRim {
     /// Returns the place itself. Next to a step of constant tractions, where the stress is
     /// infinite, it returns the middle of its cell.
     pub(super) fn away_from_steps(&self, grid: &Grid, x: f64, y: f64) -> (f64, f64) {
-        let (cell, (s, t)) = Self::locate(grid, x, y);
+        let (cell, (s, t)) = locate_cell(grid, x, y);
         let Plane { d, .. } = self.plane;
         if self.states.iter().any(|state| state.has_steps(cell)) {
             (x - s * d.0, y - t * d.1)
@@ -298,14 +275,14 @@ impl NearRim {
 
     /// Checks that a place less than a cell deep lies beside an assumed rim in any state.
     pub(super) fn is_unknown(&self, grid: &Grid, depth: Depth, (x, y): (f64, f64)) -> bool {
-        let (cell, _) = Self::locate(grid, x, y);
-        let is_unknown = |state: &Continued| state.rim_is_unknown(cell);
+        let (cell, _) = locate_cell(grid, x, y);
+        let is_unknown = |state: &Arc<Continued>| state.rim_is_unknown(cell);
         self.depth_in_cells(depth) < 1.0 && self.states.iter().any(is_unknown)
     }
 
     /// The continued tractions of a state; none where they are constant in all cells.
     pub(super) fn continued(&self, state: usize) -> Option<&Continued> {
-        self.states.get(state)
+        self.states.get(state).map(Arc::as_ref)
     }
 
     /// Adds the correction to the stress of a state at a sample in a cell \[Pa\].

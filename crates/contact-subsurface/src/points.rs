@@ -8,8 +8,8 @@ use contact_core::scene::{Body, Grid};
 use contact_core::stop::unless;
 use rayon::prelude::*;
 
+use super::continuation::{Window, check_line, line_window, locate_cell};
 use super::loads::{Loads, Patch, Plane, Source, snap_to_half_cells};
-use super::near_rim::NearRim;
 use super::states::Loaded;
 use super::{Border, Depth, Line, Point, Side, States};
 
@@ -63,9 +63,30 @@ impl Points {
         grid: &Grid,
         states: impl Into<States<'a>>,
     ) -> Result<Self, Error> {
-        let states = states.into();
-        let window = || Ok((0..grid.nx, 0..grid.ny));
-        let loaded = Loaded::new(body, side, grid, &states, window)?;
+        let window = (0..grid.nx, 0..grid.ny);
+        Self::in_window((body, side), grid, &states.into(), window)
+    }
+
+    /// Sets up the body `side` under each of the `states` for points below a line. Points beside it have the
+    /// stress of tractions that are constant in each cell.
+    pub fn new_below<'a>(
+        line: Line,
+        (body, side): (&Body, Side),
+        grid: &Grid,
+        states: impl Into<States<'a>>,
+    ) -> Result<Self, Error> {
+        check_line(grid, line)?;
+        Self::in_window((body, side), grid, &states.into(), line_window(line, grid))
+    }
+
+    /// Sets up a body for points in a window of columns and rows.
+    fn in_window(
+        (body, side): (&Body, Side),
+        grid: &Grid,
+        states: &States<'_>,
+        window: Window,
+    ) -> Result<Self, Error> {
+        let loaded = Loaded::new(body, side, grid, states, || Ok(window))?;
         let plane = Plane::new(grid, false);
         let patches = Source::ALL.map(|source| plane.loaded_patch(states.tractions, source));
         let loads = Source::ALL.map(|source| {
@@ -128,7 +149,7 @@ impl Points {
                     values.extend_from_within(..);
                 }
                 let Some(rim) = &self.loaded.rim else { return };
-                let (cell, offset) = NearRim::locate(&self.loaded.grid, points[n].0, points[n].1);
+                let (cell, offset) = locate_cell(&self.loaded.grid, points[n].0, points[n].1);
                 let is_near = |state: &usize| rim.is_near(*state, depth, cell);
                 let near: Vec<usize> = (0..states).filter(is_near).collect();
                 if near.is_empty() {
@@ -154,6 +175,12 @@ impl Points {
             }
         }
         Ok(values_by_state)
+    }
+
+    /// Memory of the loads \[bytes\].
+    pub fn bytes(&self) -> usize {
+        let numbers = self.loads.iter().map(|loads| loads.tractions.len());
+        3 * size_of::<f64>() * numbers.sum::<usize>()
     }
 
     /// Displacement of each state at each point relative to infinity \[m\].

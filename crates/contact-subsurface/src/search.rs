@@ -102,6 +102,7 @@ impl Search {
         let states = States {
             tractions: &first,
             eigenstress: states.eigenstress.get(..1).unwrap_or_default(),
+            continuations: states.continuations.get(..1).unwrap_or_default(),
             ..states.clone()
         };
         let coarser = CoarserCells::new_pair(body, side, grid, line, &states)?;

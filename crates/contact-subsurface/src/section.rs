@@ -6,9 +6,9 @@ use contact_core::scene::{Body, Grid};
 use ndarray::{Array2, Array3, ArrayView1};
 use rayon::prelude::*;
 
+use super::continuation::{check_line, line_window, locate_cell};
 use super::line_transform::LineTransform;
 use super::loads::{Plane, Source};
-use super::near_rim::NearRim;
 use super::states::Loaded;
 use super::{Depth, Line, Point, Points, Side, States};
 
@@ -51,9 +51,7 @@ impl Section {
         let (count, places) = (states.tractions.len(), line.places(grid));
         let method = match line {
             Line::Through { .. } => {
-                let (x, y) = line.place(0.0);
-                check_above_grid(grid, Line::AlongX(y))?;
-                check_above_grid(grid, Line::AlongY(x))?;
+                check_line(grid, line)?;
                 let points = Points::new(body, side, grid, states)?;
                 Method::Points(
                     Box::new(points),
@@ -161,20 +159,6 @@ fn to_arrays<const R: usize>(of_states: Vec<Vec<[f64; R]>>) -> Vec<Array2<f64>> 
     of_states.into_iter().map(line).collect()
 }
 
-/// Fails unless a line along an axis lies above the grid.
-fn check_above_grid(grid: &Grid, line: Line) -> Result<(), Error> {
-    let (x, y) = line.place(0.0);
-    let (key, place, half) = match line {
-        Line::AlongY(_) => ("x", x, grid.extent().0 / 2.0),
-        _ => ("y", y, Plane::new(grid, false).half_width()),
-    };
-    if place.is_nan() || place.abs() > half * (1.0 + 1e-9) {
-        let allowed = format!("a place above the grid, {:e} to {half:e} m", -half);
-        return Err(Error::invalid(key, place, allowed));
-    }
-    Ok(())
-}
-
 impl Rows {
     /// Prepares a section below a line along an axis: transforms of the loads for cells and for points, and the
     /// tractions near rims.
@@ -185,17 +169,24 @@ impl Rows {
         line: Line,
         states: &States<'_>,
     ) -> Result<Self, Error> {
-        check_above_grid(grid, line)?;
+        check_line(grid, line)?;
         let (x, y) = line.place(0.0);
-        let ((i, j), _) = NearRim::locate(grid, x, y);
-        let (window, place) = match line {
-            Line::AlongY(_) => ((i..i + 1, 0..grid.ny), x),
-            _ => ((0..grid.nx, j..j + 1), y),
+        let distance = match line {
+            Line::AlongY(_) => x,
+            _ => y,
         };
-        let loaded = Loaded::new(body, side, grid, states, || Ok(window))?;
+        let window = || Ok(line_window(line, grid));
+        let loaded = Loaded::new(body, side, grid, states, window)?;
         let plane = Plane::new(grid, matches!(line, Line::AlongY(_)));
         let [cells, points] = Source::ALL.map(|source| {
-            LineTransform::new(&plane, side, place, states.tractions, source, &states.stop)
+            LineTransform::new(
+                &plane,
+                side,
+                distance,
+                states.tractions,
+                source,
+                &states.stop,
+            )
         });
         let along = line.places(grid).into_iter();
         Ok(Self {
@@ -250,7 +241,7 @@ impl Rows {
             Line::AlongY(_) => grid.y(0),
             _ => grid.x(0),
         });
-        let (first, offset) = NearRim::locate(grid, x, y);
+        let (first, offset) = locate_cell(grid, x, y);
         let Some(parts) = rim.parts(kernel, depth, offset) else {
             return;
         };

@@ -1,6 +1,5 @@
 //! The states that act on a body, and the shared data of sections, slices and points.
 
-use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -11,6 +10,7 @@ use contact_core::scene::{Body, Grid, ResidualStress};
 use contact_core::stop::unless;
 use stress_tensor::StressTensor;
 
+use super::continuation::{Continuation, Window};
 use super::near_rim::NearRim;
 use super::uniform::Uniform;
 use super::{Depth, Eigenstress, Side};
@@ -35,6 +35,9 @@ pub struct States<'a> {
     /// beyond the list slip at their rim) and vary within the cells near the rim, the stick zone
     /// and the surface (default: `None`, tractions constant in each cell).
     pub stick: Option<&'a [&'a [bool]]>,
+    /// The tractions within the cells that were computed before for these states of this body
+    /// ([`Continuation::new`]); they are used where they hold the samples (default: none).
+    pub continuations: &'a [Continuation],
     /// Once raised, ends the computation with [`Error::Interrupted`] (default: never).
     pub stop: Arc<AtomicBool>,
 }
@@ -84,12 +87,15 @@ impl Loaded {
         side: Side,
         grid: &Grid,
         states: &States<'_>,
-        window: impl FnOnce() -> Result<(Range<usize>, Range<usize>), Error>,
+        window: impl FnOnce() -> Result<Window, Error>,
     ) -> Result<Self, Error> {
         body.check_alone()?;
         grid.check_alone()?;
         let window = window()?;
-        let near = |stick| NearRim::new(body, grid, side, states.tractions, stick, window);
+        let near = |stick| {
+            let (tractions, continuations) = (states.tractions, states.continuations);
+            NearRim::new((body, side), grid, tractions, stick, continuations, &window)
+        };
         Ok(Self {
             stack: Stack::new(body),
             body: body.clone(),

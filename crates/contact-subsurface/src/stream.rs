@@ -233,6 +233,7 @@ impl<A: Accumulate> Stream<A> {
             eigenstress: &eigenstress,
             stick: self.rim.then_some(&stick[..]),
             stop: self.stop.clone(),
+            continuations: &[],
         };
         let (body, side, grid) = (&self.body, self.side, &self.grid);
         let (depths, kept) = (&self.depths, &mut self.kept);

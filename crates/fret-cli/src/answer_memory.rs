@@ -1,6 +1,6 @@
 //! Memory that the answers about a result share, which `fret check` announces.
 
-use contact_assess::{MOST_HISTORIES, MOST_MOMENTS, MOST_POINTS};
+use contact_assess::{MOST_CONTINUATIONS, MOST_HISTORIES, MOST_MOMENTS, MOST_POINTS};
 use contact_core::Scene;
 use contact_core::scene::Body;
 use contact_subsurface::default_depths;
@@ -10,9 +10,14 @@ use serde_json::{Value, json};
 const STRESS: f64 = 48.0;
 /// Sections of a cycle: along the shear and across it.
 const SECTIONS: f64 = 2.0;
-/// Bytes per cell and increment of prepared points and of moments (tractions, levels, borders).
-const POINTS: f64 = 170.0;
-const MOMENTS: f64 = 25.0;
+/// Bytes per cell and increment of prepared points, on the cells and on larger ones.
+const POINTS: f64 = 45.0;
+/// Bytes per cell and increment of tractions, on the cells and on larger ones.
+const MOMENTS: f64 = 38.0;
+/// Bytes per cell of a section and increment of the tractions within the cells, eleven rows of them.
+const CONTINUATIONS: f64 = 2.0 * 11.0 * 120.0;
+/// Bytes per cell and increment of a section of a study: its tractions.
+const FIELDS: f64 = 25.0;
 /// Measured memory over these sums: 0.7 to 1 on 64 x 64 and 128 x 128 cells.
 const MARGIN: f64 = 1.2;
 /// Most memory of the sections that the stress measures of a study share \[bytes\]: the constant
@@ -53,6 +58,10 @@ impl AnswerMemory {
             (SECTIONS * count * section, MOST_HISTORIES),
             (POINTS * count * cells, MOST_POINTS),
             (MOMENTS * count * cells, MOST_MOMENTS),
+            (
+                SECTIONS * CONTINUATIONS * count * places,
+                MOST_CONTINUATIONS,
+            ),
         ];
         let layered = !(scene.body1.coatings.is_empty() && scene.body2.coatings.is_empty());
         Some(Self {
@@ -61,7 +70,7 @@ impl AnswerMemory {
                     .map(|(size, most)| size.min(most as f64))
                     .iter()
                     .sum::<f64>(),
-            sections: (COPIES * count * section + MOMENTS * count * cells).min(MOST_SECTIONS),
+            sections: (COPIES * count * section + FIELDS * count * cells).min(MOST_SECTIONS),
             kernels: if layered { MOST_KERNELS } else { 0.0 },
         })
     }

@@ -305,6 +305,7 @@ impl Task {
             eigenstress: &self.loads.eigenstress,
             stick: Some(stick),
             stop: self.stop.clone(),
+            continuations: &[],
         }
     }
 

@@ -149,6 +149,7 @@ impl Subsurface {
             eigenstress: &self.eigenstress,
             stick: self.rim.then_some(&stick[..]),
             stop: stop.clone(),
+            continuations: &[],
         };
         work(&self.body.0, &self.grid.0, states)
     }

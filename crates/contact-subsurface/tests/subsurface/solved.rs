@@ -6,7 +6,7 @@ use contact_core::scene::{
     Body, Coating, Elastic, Friction, Grid, LoadPath, Rough, Scene, Settings, Shape,
 };
 use contact_reference::{CattaneoMindlin, Hertz, HertzStress, hertz};
-use contact_subsurface::{Depth, Line, Points, Section, Side, States, depths};
+use contact_subsurface::{Continuation, Depth, Line, Points, Section, Side, States, depths};
 use ndarray::Array3;
 
 use crate::branch_ends::solved;
@@ -289,4 +289,71 @@ fn other_tractions_keep_the_loads_of_their_cells() {
         let steps = at_edge.windows(2).map(|pair| (pair[1] - pair[0]).abs());
         assert!(steps.fold(0.0, f64::max) < 1.5, "{at_edge:?}");
     }
+}
+
+/// Tractions that are continued once serve sections and points below their line, to the same bits, and are
+/// not taken on another grid.
+#[test]
+fn continued_tractions_serve_sections_and_points() {
+    let (scene, h) = scene(Shape::Sphere { R }, STEEL, (2.4, 48));
+    let fields = solved(&scene).remove(1);
+    let (body, grid) = (&scene.body2, &scene.grid);
+    let tractions = [Tractions {
+        q_x: fields.q_x.as_slice(),
+        q_y: fields.q_y.as_slice(),
+        p: fields.p.as_slice(),
+    }];
+    let stick = [fields.stick.as_slice().unwrap()];
+    let depths = depths(body, &[0.0, 0.02 * h.a, 0.3 * h.a]).unwrap();
+    for line in [
+        Line::AlongX(0.01 * h.a),
+        Line::AlongY(0.0),
+        Line::through((0.0, 0.0), 0.4),
+    ] {
+        let fresh = States {
+            stick: Some(&stick),
+            ..States::from(&tractions)
+        };
+        let made = |line| Continuation::new(line, (body, grid), &tractions[0], Some(stick[0]));
+        let continuations = [made(line).unwrap()];
+        let shared = States {
+            continuations: &continuations,
+            ..fresh.clone()
+        };
+        // Of a line elsewhere: its cells are not the ones below this line.
+        let elsewhere = [made(Line::AlongX(0.9 * h.a)).unwrap()];
+        let unsuited = States {
+            continuations: &elsewhere,
+            ..fresh.clone()
+        };
+        let section = |states: &States<'_>| {
+            let section = Section::new(body, Side::Body2, grid, line, states.clone());
+            section.unwrap().stress(&depths).unwrap()
+        };
+        assert_eq!(section(&fresh), section(&shared));
+        assert_eq!(section(&fresh), section(&unsuited));
+        let places = [-0.3 * h.a, 0.51 * h.a, h.a];
+        let places = places.map(|s| line.point(s, depths[0]));
+        let whole = Points::new(body, Side::Body2, grid, fresh.clone()).unwrap();
+        let below = Points::new_below(line, (body, Side::Body2), grid, shared).unwrap();
+        assert_eq!(
+            whole.stress(&places).unwrap(),
+            below.stress(&places).unwrap()
+        );
+        assert_eq!(whole.borders(0, Some(line)), continuations[0].borders(line));
+    }
+    let (other, _) = self::scene(Shape::Sphere { R }, STEEL, (2.5, 48));
+    let line = Line::AlongX(0.0);
+    let made = Continuation::new(line, (body, &other.grid), &tractions[0], Some(stick[0]));
+    let (continuations, states) = ([made.unwrap()], States::from(&tractions));
+    let stress = |continuations| {
+        let states = States {
+            stick: Some(&stick),
+            continuations,
+            ..states.clone()
+        };
+        let section = Section::new(body, Side::Body2, grid, line, states).unwrap();
+        section.stress(&depths).unwrap()
+    };
+    assert_eq!(stress(&[]), stress(&continuations));
 }
