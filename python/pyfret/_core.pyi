@@ -3230,6 +3230,10 @@ class Subsurface:
         rim: bool = False,
         stick: NDArray[bool_] | None = None,
     ) -> Subsurface: ...
+    def border_stress(
+        self, /, *, x: float | None = None, y: float | None = None, azimuth: Angle | None = None
+    ) -> NDArray[np.float64]:
+        """Stress [Pa] on the surface where a line crosses rims and stick borders; shape (n, 6)."""
     def borders(
         self, /, *, x: float | None = None, y: float | None = None, azimuth: Angle | None = None
     ) -> list[tuple[float, float, str, bool]]:
@@ -3275,9 +3279,13 @@ class Subsurface:
         stress still rises at the end of the longest section. `anywhere`: also beside the section.
         """
     def points(
-        self, /, places: Sequence[tuple[float, float, float, int]]
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Stress (n, 6) [Pa] and displacement (n, 3) [m] at points x, y, z, layer."""
+        self,
+        /,
+        places: Sequence[tuple[float, float, float, int]],
+        *,
+        displacement: bool = False,
+    ) -> NDArray[np.float64]:
+        """Stress [Pa] or displacement [m] at points x, y, z, layer; shape (n, 6 or 3)."""
     @property
     def rim(self, /) -> bool:
         """Whether the tractions are tractions of a contact."""

@@ -79,6 +79,11 @@ pub(crate) struct Subsurface {
     search: Mutex<Option<KeptSearch>>,
 }
 
+/// The values at points as rows of an array.
+fn rows_of<const R: usize>(values: &[[f64; R]]) -> Array2<f64> {
+    Array2::from_shape_fn((values.len(), R), |(n, c)| values[n][c])
+}
+
 /// A prepared search for largest values, below a line or anywhere.
 #[derive(Clone)]
 struct KeptSearch {
@@ -294,28 +299,52 @@ impl Subsurface {
         Ok(volumes.into_iter().map(|f| f.into_pyarray(py)).collect())
     }
 
-    /// Stress (n, 6) [Pa] and displacement (n, 3) [m] at points x, y, z, layer.
-    #[pyo3(signature = (places: "Sequence[tuple[float, float, float, int]]") -> "tuple[NDArray[np.float64], NDArray[np.float64]]")]
+    /// Stress [Pa] or displacement [m] at points x, y, z, layer; shape (n, 6 or 3).
+    #[pyo3(signature = (places: "Sequence[tuple[float, float, float, int]]", *, displacement = false) -> "NDArray[np.float64]")]
     fn points<'py>(
         &self,
         py: Python<'py>,
         places: List<Place>,
-    ) -> Answer<(Matrix<'py>, Matrix<'py>)> {
+        displacement: bool,
+    ) -> Answer<Matrix<'py>> {
         let places: Vec<_> = places
             .0
             .into_iter()
             .map(|(x, y, z, layer)| (x, y, Depth { z, layer }))
             .collect();
-        let answers = stoppable(py, |stop| {
+        let values = stoppable(py, |stop| {
             let points = self.with_states(stop, |body, grid, states| {
                 core::Points::new(body, self.side, grid, states)
             })?;
-            Ok((points.stress(&places)?, points.displacement(&places)?))
+            Ok(if displacement {
+                rows_of(&points.displacement(&places)?.swap_remove(0))
+            } else {
+                rows_of(&points.stress(&places)?.swap_remove(0))
+            })
         })??;
-        let (stress, u) = answers;
-        let stress = Array2::from_shape_fn((places.len(), 6), |(n, c)| stress[0][n][c]);
-        let u = Array2::from_shape_fn((places.len(), 3), |(n, c)| u[0][n][c]);
-        Ok((stress.into_pyarray(py), u.into_pyarray(py)))
+        Ok(values.into_pyarray(py))
+    }
+
+    /// Stress [Pa] on the surface where a line crosses rims and stick borders; shape (n, 6).
+    #[pyo3(signature = (*, x: "float | None" = None, y: "float | None" = None, azimuth: "Angle | None" = None) -> "NDArray[np.float64]")]
+    fn border_stress<'py>(
+        &self,
+        py: Python<'py>,
+        #[pyo3(from_py_with = number)] x: Option<f64>,
+        #[pyo3(from_py_with = number)] y: Option<f64>,
+        #[pyo3(from_py_with = Optional::azimuth)] azimuth: Option<f64>,
+    ) -> Answer<Matrix<'py>> {
+        let line = line(x, y, azimuth)?;
+        let stress = stoppable(py, |stop| {
+            let points = self.with_states(stop, |body, grid, states| {
+                core::Points::new(body, self.side, grid, states)
+            })?;
+            let borders = points.borders(0, Some(line));
+            let surface = Depth { z: 0.0, layer: 0 };
+            let places: Vec<_> = borders.iter().map(|b| (b.x, b.y, surface)).collect();
+            Ok(rows_of(&points.stress(&places)?.swap_remove(0)))
+        })??;
+        Ok(stress.into_pyarray(py))
     }
 
     /// Largest value of a measure on a section, between its samples; in the layer `only`.

@@ -177,7 +177,7 @@ def stress(
             at[:, 0].tolist(), at[:, 1].tolist(), depth.tolist(), layer.tolist(), strict=True
         )
     ]
-    stresses, _ = below.points(wanted_points)
+    stresses = below.points(wanted_points)
     xx, yy, zz, xy, xz, yz = np.asarray(stresses).T
     tensor = np.stack([xx, xy, xz, xy, yy, yz, xz, yz, zz], -1).reshape(-1, 3, 3)
     tensor = frame.stress(tensor)

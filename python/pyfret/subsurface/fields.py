@@ -251,7 +251,7 @@ def _sampled(
     pairs = list(zip(depths, layers, strict=True))
     x, y, azimuth = at
     if x is not None and y is not None and azimuth is None:
-        values = below.points([(x, y, *d) for d in pairs])[int(displacement)].T
+        values = below.points([(x, y, *d) for d in pairs], displacement=displacement).T
     elif x is None and y is None:
         planes = [below.slice(*d, displacement=displacement) for d in pairs]
         values = np.stack([np.stack(plane) for plane in planes], axis=1)

@@ -276,7 +276,7 @@ class Stress(Labelled, Figured):
         line = line_of(self.dataset)
         borders = self._below.borders(**line.named())
         points = [(x, y) for x, y, border_zone, _ in borders if border_zone == zone]
-        tensors = self._below.points([(x, y, 0.0, 0) for x, y in points])[0]
+        tensors = self._below.points([(x, y, 0.0, 0) for x, y in points])
         variables = {
             name: (zone.split()[0], values, surface[name].attrs)
             for name, values in zip(COMPONENTS, tensors.T, strict=True)
