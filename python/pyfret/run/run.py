@@ -213,9 +213,11 @@ class Run(OfRun):
                 f"{saved.tolist()} at t = {times.tolist()}{ends if saved.size else ''}"
             )
         last_place = int(places[-1])
-        fields = self.dataset.isel(saved=last_place)
         increment = int(saved[last_place])
-        row = fields.sel(increment=increment).drop_vars(("saved_increment", "saved_t"))
+        n = int(np.flatnonzero(self.dataset.increment.values == increment)[0])
+        row = self.dataset.drop_vars(("saved_increment", "saved_t")).isel(
+            saved=last_place, increment=n
+        )
         if "yielded_increment" in row:
             yielded_rows = np.flatnonzero(row.yielded_increment.values == increment)
             row = row.isel(

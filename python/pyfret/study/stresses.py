@@ -84,10 +84,7 @@ class SampledState:
 
 
 class InterfaceState(NamedTuple):
-    """The stress at the interfaces of a body in one state, sampled above each of them.
-
-    This takes a twentieth of the time of a whole section.
-    """
+    """The stress at the interfaces of a body in one state, sampled above each of them."""
 
     state: Snapshot
     body_number: int
@@ -127,9 +124,10 @@ def sample_states(
         return sampled
     states = [state for state in map(result.at, increments) if bool(state.contact.any())]
     if on_interfaces(name):
+        samples = sample_interfaces(states, body_number=body_number)
         at_interfaces = [
-            InterfaceState(s, body_number, sample_interfaces(s, body_number=body_number))
-            for s in states
+            InterfaceState(state, body_number, of_state)
+            for state, of_state in zip(states, samples, strict=True)
         ]
         result.shared[section_kind] = (key, at_interfaces)
         return at_interfaces

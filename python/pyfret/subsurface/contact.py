@@ -89,19 +89,6 @@ def stress_at_interfaces(state: State, *, body_number: int = 2) -> Stress:
     return with_contact(below, state, anywhere=True)
 
 
-def sample_interfaces(state: State, *, body_number: int = 2) -> NDArray[np.float64]:
-    """Return the stress above every interface on the section of :func:`stress_at_interfaces`.
-
-    The array has the six components, then the samples. The stresses that act on an interface are
-    the same on both sides.
-    """
-    depths = fields.interfaces(state.body(body_number))
-    loaded = loaded_by(state, body_number, bulk=True, residual=None)
-    upper_layers = list(range(len(depths)))
-    section = main_line(state).named()
-    return np.reshape(loaded.section(depths, upper_layers, displacement=False, **section), (6, -1))
-
-
 #: Most memory of sections that are computed together [bytes].
 TOGETHER = 32e6
 #: Lines nearer than this part of a cell, and angles nearer than this [rad], are the same.
@@ -116,8 +103,42 @@ def sample_sections(
 ) -> list[tuple[NDArray[np.float64], list[int]]]:
     """Return the stress of states on the sections that :func:`stress_below` chooses.
 
-    Each array has the shape (6, depths, places). The layers of the depths stand beside it. States
-    whose sections lie below one line share their kernels, which cost as much as ten states.
+    Each array has the shape (6, depths, places). The layers of the depths stand beside it.
+    """
+
+    def choose(body: _core.Body, length: float) -> tuple[list[float], list[int]]:
+        return fields.choose_depths(body, None, length)
+
+    return _sample_together(states, body_number, residual, choose)
+
+
+def sample_interfaces(
+    states: Sequence[State], *, body_number: int = 2
+) -> list[NDArray[np.float64]]:
+    """Return the stress of states above every interface on the chosen sections.
+
+    Each array has the six components, then the samples. The stresses that act on an interface are
+    the same on both sides.
+    """
+
+    def upper_sides(body: _core.Body, _: float) -> tuple[list[float], list[int]]:
+        depths = fields.interfaces(body)
+        return depths, list(range(len(depths)))
+
+    sampled = _sample_together(states, body_number, None, upper_sides)
+    return [np.reshape(section, (6, -1)) for section, _ in sampled]
+
+
+def _sample_together(
+    states: Sequence[State],
+    body_number: int,
+    residual: Sequence[ArrayLike] | None,
+    choose_depths: Callable[[_core.Body, float], tuple[list[float], list[int]]],
+) -> list[tuple[NDArray[np.float64], list[int]]]:
+    """Return the stress of states on their chosen sections, with the layers of the depths.
+
+    `choose_depths` takes the body and the length of the contact. States whose sections lie below
+    one line share their kernels, which cost as much as ten states.
     """
     groups: dict[tuple[object, ...], list[int]] = {}
     lines = [main_line(state) for state in states]
@@ -132,7 +153,7 @@ def sample_sections(
     for members in groups.values():
         first = states[members[0]]
         body, grid = first.body(body_number), first.scene.grid
-        z, layers = fields.choose_depths(body, None, first.length)
+        z, layers = choose_depths(body, first.length)
         size = 48.0 * len(z) * max(grid.nx, grid.ny)
         count = max(int(TOGETHER / size), 1)
         for start in range(0, len(members), count):
@@ -158,8 +179,7 @@ def sample_borders(
     The array has the six components, then the crossings.
     """
     loaded = loaded_by(state, body_number, bulk=True, residual=residual)
-    crossings = loaded.borders(**main_line(state).named())
-    return loaded.points([(x, y, 0.0, 0) for x, y, *_ in crossings])[0].T
+    return loaded.border_stress(**main_line(state).named()).T
 
 
 def with_contact(below: Stress, state: State, *, anywhere: bool) -> Stress:
