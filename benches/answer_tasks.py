@@ -19,7 +19,7 @@ from statistics import median
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from answers import STEEL, TITANIUM, R, W, contact
+from answers import QUICK, STEEL, TITANIUM, R, W, contact
 
 import pyfret as fret
 from pyfret.workbench.answers import answer_in_full, preview
@@ -62,11 +62,11 @@ def solve(scene: fret.Scene, **options: Any) -> fret.Result:
     return fret.solve(scene, progress=False, **options)
 
 
-def of_error_bars(repeat: int) -> list[tuple[str, Cost, float]]:
+def of_error_bars(repeat: int, divisor: int) -> list[tuple[str, Cost, float]]:
     """Measure runs with error bars over the runs alone."""
     rows = []
     for kind in ("bare", "coated"):
-        for cells in (64, 128):
+        for cells in (64 // divisor, 128 // divisor):
             scene = contact(kind, cells)
             solve(scene)
             alone = measure(partial(solve, scene), repeat)
@@ -77,9 +77,10 @@ def of_error_bars(repeat: int) -> list[tuple[str, Cost, float]]:
     return rows
 
 
-def of_comparison(_: int) -> list[tuple[str, Cost, float]]:
+def of_comparison(_: int, divisor: int) -> list[tuple[str, Cost, float]]:
     """Measure the comparison of four coatings with all questions, over its solutions alone."""
-    bare = contact("bare", FEW)
+    cells = FEW // divisor
+    bare = contact("bare", cells)
     thickness = 0.1 * fret.reference.hertz(R=R, bodies=(STEEL, TITANIUM), W=W).a
     bodies = {
         name: fret.Body(
@@ -95,34 +96,37 @@ def of_comparison(_: int) -> list[tuple[str, Cost, float]]:
         fret.study.compare(bodies, bare, bare.path, executor=executor, progress=False)
 
     cost = measure(compare, 1)
-    title = f"`compare` of four coatings, {FEW} cells, over their solutions"
+    title = f"`compare` of four coatings, {cells} cells, over their solutions"
     return [(title, cost, cost.processor / alone.processor)]
 
 
-def of_study(_: int) -> list[tuple[str, Cost, float]]:
+def of_study(_: int, divisor: int) -> list[tuple[str, Cost, float]]:
     """Measure a study of 60 points with largest stresses, over its solutions alone."""
-    scene = contact("bare", FEW)
+    cells = FEW // divisor
+    scene = contact("bare", cells)
+    points = {name: values[::divisor] for name, values in POINTS.items()}
     scenes = [
-        scene.replace(dict(zip(POINTS, values, strict=True)))
-        for values in itertools.product(*POINTS.values())
+        scene.replace(dict(zip(points, values, strict=True)))
+        for values in itertools.product(*points.values())
     ]
     alone = measure(lambda: [solve(point, save="all") for point in scenes], 1)
 
     def study() -> None:
         fret.study.run(
             scene.replace(save="all"),
-            POINTS,
+            points,
             measure=list(STRESSES),
             executor=ThreadPoolExecutor(1),
             progress=False,
         )
 
     cost = measure(study, 1)
-    title = f"study of 60 points with {', '.join(STRESSES)}, {FEW} cells, over its solutions"
+    count, stresses = len(scenes), ", ".join(STRESSES)
+    title = f"study of {count} points with {stresses}, {cells} cells, over its solutions"
     return [(title, cost, cost.processor / alone.processor)]
 
 
-def of_page(repeat: int) -> list[tuple[str, Cost, float]]:
+def of_page(repeat: int, _: int) -> list[tuple[str, Cost, float]]:
     """Measure the answers of the page to its first contact, on its 48 x 48 cells."""
     scene, names = ball_on_coated_flat()
     changes = iter(np.linspace(0.31, 0.6, 4 * repeat).tolist())
@@ -145,11 +149,12 @@ TASKS = (of_error_bars, of_comparison, of_study, of_page)
 def main() -> None:
     """Measure, and print a line of JSON for each task."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--repeat", type=int, default=5)
+    parser.add_argument("--quick", action="store_true", help="small grids, to check the program")
     options = parser.parse_args()
     warnings.simplefilter("ignore")
     for task in TASKS:
-        for title, cost, ratio in task(options.repeat):
+        for title, cost, ratio in task(options.repeat, QUICK if options.quick else 1):
             print(json.dumps({"title": title, **cost._asdict(), "ratio": ratio}), flush=True)
 
 
