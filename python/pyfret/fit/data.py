@@ -57,6 +57,8 @@ Data: TypeAlias = "Loops | Indentation | Scar | Lives"
 #: Part of a branch at its end with the slope of sliding, and the largest slope there, over
 #: the slope of the flank, for a loop that slides: at 0.9 mu W a ball in partial slip has 0.46.
 END, SLIDING = 0.25, 0.3
+#: Slope of a flank of a single point [N/m], and more.
+STEEPEST = 1e100
 #: Part of the shift of a cycle that both of its branches have, if it is a whole one.
 WHOLE = 0.9
 
@@ -161,6 +163,22 @@ class Loops(Measurement):
     @property
     def sliding_slope(self) -> float | None:
         """Return the mean slope of the ends of branches [N/m]; None if the loops do not slide."""
+        ends, flanks = self._slopes()
+        if not ends or abs(np.mean(ends)) > SLIDING * float(np.mean(flanks)):
+            return None
+        return float(np.mean(ends))
+
+    @property
+    def flank_slope(self) -> float | None:
+        """Return the mean slope of the branches after their turns [N/m].
+
+        None where no branch has two points there.
+        """
+        flanks = [slope for slope in self._slopes()[1] if slope < STEEPEST]
+        return float(np.mean(flanks)) if flanks else None
+
+    def _slopes(self) -> tuple[list[float], list[float]]:
+        """Return the slopes of the ends and of the flanks of branches with enough points [N/m]."""
         ends, flanks = [], []
         for n in range(int(self.cycle.max()) + 1):
             for down in (False, True):
@@ -178,9 +196,7 @@ class Loops(Measurement):
                 rise = np.abs(force - (force.max() if down else force.min()))
                 flank = shift[rise <= 0.5 * np.ptp(force)]
                 flanks.append(0.5 * float(np.ptp(force)) / max(float(np.ptp(flank)), 1e-300))
-        if not ends or abs(np.mean(ends)) > SLIDING * float(np.mean(flanks)):
-            return None
-        return float(np.mean(ends))
+        return ends, flanks
 
     @staticmethod
     @quantities

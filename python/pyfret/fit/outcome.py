@@ -11,7 +11,7 @@ import numpy as np
 
 from pyfret._core import with_error
 from pyfret._util.holds_arrays import HoldsArrays
-from pyfret._util.keywords import refuse_unknown
+from pyfret._util.keywords import nearest_names, refuse_unknown
 from pyfret._util.lazy import xr
 from pyfret._util.packed import packed
 from pyfret._util.window import format_table
@@ -36,6 +36,8 @@ UNRESOLVED = 4.0
 ROUGH = 0.3
 #: Residual over the given noise from which the model is doubted.
 EXCESS = 1.5
+#: Residual of loops over the range of their force from which a rig in series is suggested.
+UNEXPLAINED = 0.03
 #: Correlation of neighbouring residuals from which they count as a pattern.
 PATTERN = 0.5
 
@@ -103,6 +105,14 @@ class Known:
     solver: float
     at_bound: bool
 
+    @property
+    def is_resolved(self) -> bool:
+        """Whether its ends lie within a factor of 4 and on one side of zero."""
+        if self.at_bound:
+            return True
+        across_zero = self.low <= 0 < self.value
+        return not (across_zero or self.high > UNRESOLVED * max(self.low, 1e-300) > 0)
+
 
 @dataclass(frozen=True, eq=False)
 class FitResult(Saveable, HoldsArrays):
@@ -136,6 +146,8 @@ class FitResult(Saveable, HoldsArrays):
         The scene with the values found.
     posterior : Posterior, optional
         Samples of the unknowns, where they were asked for.
+    left_out : tuple of str
+        Offsets of loops, "tilt" or "drift", that are fitted by default and were left out here.
     """
 
     known: dict[str, Known]
@@ -151,10 +163,24 @@ class FitResult(Saveable, HoldsArrays):
     converged: bool
     scene: Scene
     posterior: Posterior | None = None
+    left_out: tuple[str, ...] = ()
 
     def __getitem__(self, key: str) -> float:
         """The value of an unknown."""
+        if key not in self.known:
+            near = nearest_names(str(key), self.known, 1)
+            hint = f"; did you mean {near[0]!r}?" if near else ""
+            raise KeyError(f"no unknown {key!r:.60}: there is {', '.join(self.known)}{hint}")
         return self.known[key].value
+
+    @property
+    def is_resolved(self) -> bool:
+        """Whether the data tell all unknowns apart and bound them."""
+        if len(self.known) > 1:
+            beside = np.abs(self.correlation - np.eye(len(self.known)))
+            if float(beside.max()) > ALIKE:
+                return False
+        return all(unknown.is_resolved for unknown in self.known.values())
 
     @property
     def dataset(self) -> xr.Dataset:
@@ -213,13 +239,23 @@ class FitResult(Saveable, HoldsArrays):
         for key, unknown in self.known.items():
             if unknown.at_bound:
                 sentences.append(f"{key} ended at a bound of its range: widen it, or fix {key}")
-            elif (
-                unknown.low <= 0 < unknown.value
-                or unknown.high > UNRESOLVED * max(unknown.low, 1e-300) > 0
-            ):
+            elif not unknown.is_resolved:
                 sentences.append(
                     f"{key} is not resolved by these data: {unknown.low:.3g} to {unknown.high:.3g}"
                 )
+        if not self.is_resolved and (offsets := self._default_offsets()):
+            sentences.append(
+                f"{' and '.join(offsets)} of the loops are unknown as well; with "
+                f"read_loops(..., {', '.join(f'{name}=False' for name in offsets)}) they are not"
+            )
+        for name in self.left_out:
+            meaning = {"tilt": "a spring beside the contact", "drift": "a drift of the gauges"}[
+                name
+            ]
+            sentences.append(
+                f"{meaning} was left out, since these data cannot distinguish it from the "
+                f"unknowns; {name}=True fits it"
+            )
         if not self.solver_known:
             sentences.append(
                 "cells twice as wide, or half of the increments, could not be solved: what they "
@@ -251,9 +287,24 @@ class FitResult(Saveable, HoldsArrays):
                 sentences += self._doubts_of_loops(measured.data, self.noise[n])
         return sentences
 
+    def _default_offsets(self) -> list[str]:
+        """Return the offsets of the loops, tilt and drift, that are fitted by default."""
+        loops = [measured.data for measured in self.sets if isinstance(measured.data, Loops)]
+        fitted = " ".join(self.offsets)
+        tilts = "spring" in fitted and any(data.tilt is None for data in loops)
+        drifts = "drift" in fitted and any(data.drifts is None for data in loops)
+        return [name for name, is_so in (("tilt", tilts), ("drift", drifts)) if is_so]
+
     def _doubts_of_loops(self, data: Loops, noise: float) -> list[str]:
         """Describe features of loops that the contact does not explain."""
         sentences = []
+        part = noise / max(float(np.ptp(data.T)), 1e-300)
+        has_rig = "rig.stiffness" in self.known or self.scene.path.rig_stiffness is not None
+        if not has_rig and part > UNEXPLAINED:
+            sentences.append(
+                f"the residual is {part:.0%} of the force, and the loop has no rig in series: add "
+                'its stiffness to the unknowns, "rig.stiffness": (1e6, 1e9) in N/m'
+            )
         drift = data.drift
         if data.drifts is False and abs(drift[1]) > 2 * noise:
             sentences.append(

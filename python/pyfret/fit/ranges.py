@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from pyfret._util.arrays import items, number
+from pyfret._util.parameters import full
 from pyfret._util.scene_warnings import doubt_numbers
 
-__all__ = ["SearchRange", "ranges"]
+__all__ = ["USUAL", "SearchRange", "ranges", "with_usual_ranges"]
 
+#: Unknowns of a loop.
+EXAMPLE = '{"mu": (0.1, 1.2), "rig.stiffness": (1e6, 1e8)}'
+#: Ranges of the unknowns of a loop that are given by their names alone.
+USUAL = {"mu": (0.05, 2.0), "rig.stiffness": (1e5, 1e10)}
 #: Step of the differences, of ln of an unknown or of its range.
 STEP = 0.02
 
@@ -52,10 +57,39 @@ class SearchRange:
         return float(offset / self.width)
 
 
+def with_usual_ranges(
+    unknown: Mapping[str, tuple[float, ...]] | Sequence[str] | str | None,
+    starts: Mapping[str, float],
+) -> Mapping[str, tuple[float, ...]]:
+    """Return the ranges of unknowns that are given by their names alone, with their `starts`.
+
+    Raises
+    ------
+    TypeError
+        They are neither names nor ranges by names.
+    ValueError
+        A name has no usual range.
+    """
+    if unknown is None or isinstance(unknown, Mapping):
+        return unknown or {}
+    names = [unknown] if isinstance(unknown, str) else unknown
+    if not isinstance(names, Sequence) or not all(isinstance(name, str) for name in names):
+        raise TypeError(f"unknown = {unknown!r:.60}: must be ranges by names, such as {EXAMPLE}")
+    for name in names:
+        if full(name) not in map(full, USUAL):
+            raise ValueError(f"unknown: {name:.60} needs its range, {{{name[:60]!r}: (low, high)}}")
+    usual: dict[str, tuple[float, ...]] = {}
+    for name, (low, high) in USUAL.items():
+        start = starts.get(name)
+        is_inside = start is not None and low < start < high
+        usual[full(name)] = (low, start, high) if start is not None and is_inside else (low, high)
+    return {name: usual[full(name)] for name in names}
+
+
 def ranges(unknown: Mapping[str, tuple[float, ...]]) -> list[SearchRange]:
     """Check the ranges of the unknowns; implausible ends get a warning."""
     if not unknown:
-        raise ValueError('unknown: none, give some, such as {"mu": (0.1, 1.5)}')
+        raise ValueError(f"unknown: none, give some with their ranges, such as {EXAMPLE}")
     search_ranges = []
     for key, bounds in unknown.items():
         ends = tuple(number(v, f"unknown: {key}") for v in items(bounds, f"unknown: {key}"))

@@ -19,22 +19,21 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from functools import partial
+from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pyfret._core import Grid, Scene
+from pyfret._core import Branch, Grid, LoadPath, Scene
 from pyfret._util.extras import application, needed
-from pyfret.fit.data import Data
-from pyfret.fit.models import Model, model_of, split
+from pyfret.fit.data import Data, Indentation, Loops
+from pyfret.fit.models import DRIFTS, Model, model_of, split
 from pyfret.fit.outcome import FitResult, Known, Posterior
-from pyfret.fit.ranges import SearchRange, ranges
+from pyfret.fit.ranges import USUAL, SearchRange, ranges, with_usual_ranges
 from pyfret.quantities import quantities
 from pyfret.study.design import with_values
 
 if TYPE_CHECKING:
-    import os
-
     from numpy.typing import NDArray
 
 __all__ = ["fit"]
@@ -48,16 +47,20 @@ WIDE, FARTHER = 0.15, 3.0
 THREADS = 2
 #: Errors of what a record leaves unsure that its part of a confidence of 95 % has.
 SURE = 2.0
+#: Stiffness of a rig over that of rig and contact in series, to start with.
+STIFFER = 1.5
+#: Residual without a spring or a drift over the residual with them, up to which they are left out.
+EXPLAINED = 1.2
 #: Noise of data without a given one, over their range, to weigh sets of data.
 NOISE = 0.02
 
 
 @quantities
 def fit(
-    scene: Scene | str | os.PathLike[str],
+    scene: Scene | str | PathLike[str],
     data: Data | Sequence[Data],
     *,
-    unknown: Mapping[str, tuple[float, ...]],
+    unknown: Mapping[str, tuple[float, ...]] | Sequence[str] | str | None = None,
     executor: int | Executor | None = None,
     posterior: int = 0,
     seed: int = 0,
@@ -67,14 +70,15 @@ def fit(
     Parameters
     ----------
     scene : Scene or path
-        The contact with all known values; its path has the normal force of loops.
+        The contact with all known values; of its path loops and indentations take the normal force.
     data : Loops, Indentation, Scar, Lives, or list of these
         What was measured.
-    unknown : mapping of str to (low, high) or (low, start, high)
+    unknown : mapping of str to (low, high) or (low, start, high), or names, optional
         Ranges by the keys of a scene file, such as ``"mu"``, ``"rig.stiffness"``,
         ``"body2.coatings.0.E"``, ``"body2.coatings.0.thickness"``, ``"body1.shape.sphere.R"``, and
         of its wear, ``"wear.body2.alpha"``, ``"wear.body2.share"``. Positive ranges are searched
-        by their logarithm.
+        by their logarithm. The names alone are enough for ``"mu"``, sought in 0.05 to 2, and
+        ``"rig.stiffness"``, in 1e5 to 1e10 N/m; these two are the default of loops.
     executor : int or Executor, optional
         What solves contacts side by side: so many threads (default: two), or an executor of
         ``concurrent.futures``.
@@ -88,44 +92,103 @@ def fit(
     Returns
     -------
     FitResult
-        Values, their 95 % confidence, doubts; :meth:`FitResult.summary`.
+        Values, their 95 % confidence, doubts; :meth:`FitResult.summary`. If the unknowns cannot be
+        resolved beside the tilt and the drift that loops have by default, these are left out where
+        the residual stays the same; a doubt names them.
 
     Raises
     ------
     ValueError
-        There is no unknown, or a range has no meaning.
+        There is no unknown, or a range is missing or has no meaning.
     ModuleNotFoundError
         ``scipy`` (or ``emcee``) is not installed: ``pip install "fretting[fit]"``.
 
     Examples
     --------
     >>> loops = pyfret.fit.read_loops("loop.csv")  # doctest: +SKIP
+    >>> fit("scene.toml", loops)["mu"]  # doctest: +SKIP
     >>> fit("scene.toml", loops, unknown={"mu": (0.1, 1.5)})  # doctest: +SKIP
     """
-    optimize = needed("scipy.optimize", "fit")
+    needed("scipy.optimize", "fit")
     if posterior < 0:
         raise ValueError(f"posterior = {posterior}: must be a number of samples, 0 for none")
+    if not isinstance(scene, Scene | str | PathLike):
+        raise TypeError(f"scene = {scene!r:.60}: must be a Scene or the path of a scene file")
     if not isinstance(scene, Scene):
         scene = Scene.from_file(scene)
     sets: list[Data] = list(data) if isinstance(data, Sequence) else [data]
-    search = Search(scene, [model_of(item) for item in sets], ranges(unknown), executor)
+    if all(isinstance(item, Loops | Indentation) for item in sets):
+        scene = under_normal_force(scene)
+    if unknown is None and sets and all(isinstance(item, Loops) for item in sets):
+        unknown = tuple(USUAL)
+    searched = ranges(with_usual_ranges(unknown, estimate_unknowns(scene, sets)))
     with warnings.catch_warnings():
         # Warnings are silenced during the search; the caller checks the final scene.
         warnings.simplefilter("ignore")
-        minimum = optimize.least_squares(
-            search.residual,
-            search.start(),
-            jac=search.jacobian,
-            bounds=search.bounds(),
-            x_scale=1.0,
-            xtol=1e-4,
-            ftol=1e-5,
-            gtol=1e-9,
-            max_nfev=MOST,
-        )
-        best = np.asarray(minimum.x)
-        fitted = search.outcome(best, converged=bool(minimum.status > 0))
+        search = Search(scene, [model_of(item) for item in sets], searched, executor)
+        fitted, best = search.minimize()
+        if not fitted.is_resolved:
+            simpler_sets, left_out = without_defaults(sets)
+            if left_out:
+                simpler = Search(scene, [model_of(i) for i in simpler_sets], searched, executor)
+                other, best_of_other = simpler.minimize()
+                worst = max(
+                    a / max(b, 1e-300) for a, b in zip(other.noise, fitted.noise, strict=True)
+                )
+                if other.is_resolved and worst < EXPLAINED:
+                    solves = fitted.solves + other.solves
+                    fitted = replace(other, solves=solves, left_out=left_out)
+                    search, best = simpler, best_of_other
         return search.with_posterior(fitted, best, posterior, seed) if posterior else fitted
+
+
+def under_normal_force(scene: Scene) -> Scene:
+    """Return the scene with its largest normal force alone: loops bring their own motion."""
+    path = scene.path
+    if all(branch.W is not None and not moves(branch) for branch in path.branches):
+        return scene
+    W = max((branch.W or 0.0 for branch in path.branches), default=0.0)
+    pressed = LoadPath.start().normal(W, increments=1) if W > 0.0 else LoadPath.start()
+    return scene.replace(path=pressed.rig(path.rig_stiffness))
+
+
+def moves(branch: Branch) -> bool:
+    """Whether a branch has a tangential force or shift."""
+    return any(getattr(branch, name) for name in ("T_x", "T_y", "delta_x", "delta_y"))
+
+
+def estimate_unknowns(scene: Scene, sets: Sequence[Data]) -> dict[str, float]:
+    """Estimate friction and rig from the first loops, to start a search there.
+
+    The force is at most mu W, and the rig is stiffer than rig and contact in series.
+    """
+    loops = next((item for item in sets if isinstance(item, Loops)), None)
+    if loops is None:
+        return {}
+    W = max((branch.W or 0.0 for branch in scene.path.branches), default=0.0)
+    W = loops.W if loops.W is not None else W
+    estimates = {"mu": 0.55 * float(np.ptp(loops.T)) / W} if W > 0.0 else {}
+    secant = float(np.ptp(loops.T)) / max(float(np.ptp(loops.delta)), 1e-300)
+    estimates["rig.stiffness"] = STIFFER * (loops.flank_slope or secant)
+    return estimates
+
+
+def without_defaults(sets: Sequence[Data]) -> tuple[list[Data], tuple[str, ...]]:
+    """Return data without the offsets that are unknown by default, and the names of these."""
+    simpler: list[Data] = []
+    left_out: dict[str, None] = {}
+    for item in sets:
+        changes: dict[str, bool] = {}
+        if isinstance(item, Loops):
+            has_drifts = set(DRIFTS) <= set(model_of(item).offsets)
+            if item.tilt is None and item.sliding_slope is not None:
+                changes["tilt"] = False
+                left_out["tilt"] = None
+            if item.drifts is None and has_drifts:
+                changes["drifts"] = False
+                left_out["drift"] = None
+        simpler.append(replace(item, **changes) if changes else item)  # type: ignore[arg-type]
+    return simpler, tuple(left_out)
 
 
 @dataclass
@@ -145,6 +208,22 @@ class Search:
         """The first guess: unknowns, then offsets over their scales."""
         first = [min(max(r.to_u(r.start), 1e-3), 1 - 1e-3) for r in self.ranges]
         return np.concatenate([first, np.zeros(self.gauges)])
+
+    def minimize(self) -> tuple[FitResult, NDArray[np.float64]]:
+        """Search the least squares; return the fit, and the unknowns and offsets there."""
+        minimum = needed("scipy.optimize", "fit").least_squares(
+            self.residual,
+            self.start(),
+            jac=self.jacobian,
+            bounds=self.bounds(),
+            x_scale=1.0,
+            xtol=1e-4,
+            ftol=1e-5,
+            gtol=1e-9,
+            max_nfev=MOST,
+        )
+        best = np.asarray(minimum.x)
+        return self.outcome(best, converged=bool(minimum.status > 0)), best
 
     @property
     def gauges(self) -> int:
