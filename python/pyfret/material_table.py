@@ -57,7 +57,7 @@ def list_table(
     >>> fret.materials().loc["chromium", "E [Pa]"]
     279000000000.0
     """
-    import pandas as pd
+    from pyfret._util.frame import Frame
 
     if isinstance(file, str) and find_material(file, Materials()) is not None:
         raise ValueError(
@@ -72,7 +72,7 @@ def list_table(
             for name, value, source in entry.numbers()
         ]
         heads = ["name", "quantity", "value", "unit", "known", "source"]
-        return pd.DataFrame(rows, columns=heads).set_index("name")
+        return Frame(rows, columns=heads).set_index("name")
     listed = []
     for entry in table.values():
         values = {name: value for name, value, _ in entry.numbers()}
@@ -82,7 +82,7 @@ def list_table(
         }
         about = {"title": entry.title, "kind": entry.kind, "also": ", ".join(entry.also)}
         listed.append({"name": entry.name, **about, **numbers})
-    return pd.DataFrame(listed).set_index("name")
+    return Frame(listed).set_index("name")
 
 
 @quantities

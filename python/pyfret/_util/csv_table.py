@@ -89,9 +89,9 @@ def columns_of(dataset: xr.Dataset, rows: Sequence[str] | None = None) -> dict[s
 
 def data_frame(dataset: xr.Dataset, rows: Sequence[str] | None = None) -> pd.DataFrame:
     """Return the variables over some axes as a table of pandas, units in the names of columns."""
-    import pandas as pd
+    from pyfret._util.frame import Frame
 
-    return pd.DataFrame(columns_of(dataset, rows))
+    return Frame(columns_of(dataset, rows))
 
 
 def write_csv(
@@ -260,20 +260,28 @@ class Tabular:
         return tables[of]
 
     def to_dataframe(
-        self, of: str | None = None, *, units: Mapping[str, str] | None = None
+        self,
+        of: str | None = None,
+        *,
+        columns: Sequence[str] | None = None,
+        units: Mapping[str, str] | None = None,
     ) -> pd.DataFrame:
         """Return a table of pandas: a row for every point, units in the names of the columns.
+
+        A column is found by its name without the unit as well: ``frame["T_x"]``.
 
         Parameters
         ----------
         of : str, optional
             The table (default: the main one). A run has ``"increments"``, ``"branches"``,
             ``"loops"`` and ``"error_bars"``, wear has ``"jumps"`` and ``"loops"``.
+        columns : sequence of str, optional
+            Columns in this order, with or without their units (default: all).
         units : dict, optional
             Units of some columns in place of SI units, such as ``{"delta_x": "um"}``, or of all
             columns of a unit, such as ``{"m": "um"}``.
         """
-        return convert_units(self._frame(of), units)
+        return convert_units(choose_columns(self._frame(of), columns), units)
 
     def to_csv(
         self,

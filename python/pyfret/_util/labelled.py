@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, ClassVar
 
-from pyfret._util.attributes import dataset_attribute, dataset_names
+from pyfret._util.attributes import dataset_attribute, dataset_item, dataset_names
 from pyfret._util.csv_table import Tabular
 from pyfret._util.lazy import xr
 from pyfret._util.parameter import MADE
@@ -17,6 +17,9 @@ class Labelled(Tabular):
 
     Variables of the dataset are attributes of it, and so are the attributes of the dataset.
     """
+
+    #: Clause of the refusal of an item that is no name.
+    _item_hint: ClassVar[str] = ""
 
     def __init__(self, dataset: xr.Dataset) -> None:
         if not isinstance(dataset, xr.Dataset):
@@ -33,6 +36,13 @@ class Labelled(Tabular):
     def __getattr__(self, name: str) -> Any:
         """Give a variable or an attribute of the dataset."""
         return dataset_attribute(self, name)
+
+    def __getitem__(self, name: str) -> Any:
+        """Give a variable of the dataset, or another array of the object, by its name."""
+        return dataset_item(self, name, self._item_hint)
+
+    #: Its names are no sequence.
+    __iter__ = None
 
     def __dir__(self) -> list[str]:
         """The names of the class, and of the dataset."""

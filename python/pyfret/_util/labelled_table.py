@@ -76,6 +76,21 @@ class Table(xr.Dataset):  # type: ignore[no-untyped-call]
         omitted = full.shape[1] - frame.shape[1]
         return f"{text}\n{omitted} more columns: to_dataframe()" if omitted else text
 
+    def __getitem__(self, key: Any) -> Any:
+        """Return a column by its name, the row of a number, or what xarray selects by a key.
+
+        Raises
+        ------
+        KeyError
+            There is no such column; the message has the nearest ones.
+        """
+        if isinstance(key, int) and not isinstance(key, bool) and len(self.sizes) == 1:
+            return self.isel({next(iter(self.sizes)): key})
+        if isinstance(key, str) and key not in self.variables:
+            names = [str(variable) for variable in self.variables]
+            raise KeyError(str(attribute_error("table", key, names, {})))
+        return super().__getitem__(key)
+
     def __getattr__(self, name: str) -> Any:
         """Refuse a name that is no variable, with the nearest one."""
         try:
@@ -91,19 +106,24 @@ class Table(xr.Dataset):  # type: ignore[no-untyped-call]
         self,
         dim_order: Sequence[Hashable] | None = None,
         *,
+        columns: Sequence[str] | None = None,
         units: Mapping[str, str] | None = None,
     ) -> pd.DataFrame:
         """Return a table of pandas: a row for every point, units in the names of the columns.
+
+        A column is found by its name without the unit as well: ``frame["T"]``.
 
         Parameters
         ----------
         dim_order : sequence, optional
             The axes of the rows, as xarray has it (default: those of the first variable).
+        columns : sequence of str, optional
+            Columns in this order, with or without their units (default: all).
         units : dict, optional
             Units of some columns in place of SI units, such as ``{"dissipated": "uJ"}``.
         """
         axes = None if dim_order is None else [str(dim) for dim in dim_order]
-        return convert_units(data_frame(self, axes), units)
+        return convert_units(choose_columns(data_frame(self, axes), columns), units)
 
     def to_csv(
         self,

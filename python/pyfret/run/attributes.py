@@ -18,6 +18,8 @@ __all__ = ["OfRun"]
 class OfRun(Labelled):
     """A dataset whose attributes identify its run."""
 
+    _item_hint = "; result.at(-1) is the last increment that kept its fields"
+
     def __init__(
         self,
         dataset: xr.Dataset,
@@ -44,15 +46,6 @@ class OfRun(Labelled):
     def dataset(self) -> xr.Dataset:
         """Variables with units and meaning, and the attributes of the run."""
         return super().dataset
-
-    def __getitem__(self, name: str) -> xr.DataArray:
-        """Give a variable of the dataset by its name."""
-        if not isinstance(name, str):
-            raise TypeError(
-                f"{name!r}: must be the name of a variable, such as 'T_x'; result.at(-1) is the "
-                "last increment that kept its fields"
-            )
-        return self.dataset[name]
 
     @property
     def scene(self) -> Scene:

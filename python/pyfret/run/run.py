@@ -10,6 +10,7 @@ import numpy as np
 from pyfret import _core
 from pyfret._util.attributes import attribute_error
 from pyfret._util.lazy import xr
+from pyfret._util.names import meant
 from pyfret._util.tables import as_table
 from pyfret._util.text import shown
 from pyfret.quantities import quantities
@@ -18,6 +19,8 @@ from pyfret.run.loops import loops_of_cycles, state_in_words
 from pyfret.run.state import State
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from pyfret._core import LoadPath, Scene
     from pyfret._util.csv_table import Tables
     from pyfret._util.labelled_table import Table
@@ -27,6 +30,28 @@ __all__ = ["Run", "one_of"]
 #: Measures of stress, and words for the largest one: they belong to an increment.
 LABELS = frozenset(name for name, label in _core.probe_labels().items() if label[0] == "Pa")
 STRESS_WORDS = frozenset(("stress", "stresses", "max_stress", "peak_stress", "mises"))
+#: Where the energies of a run are.
+ENERGIES = (
+    "the energy of each cycle is result.loops().dissipated, the sum since the start "
+    "result.dissipated_energy, that of each branch result.branches().dissipated, "
+    "that of each increment result.dissipated"
+)
+#: Calls that answer a question about a run, by the words that others have for them.
+CALLS = {
+    **dict.fromkeys(
+        ("energy", "loop_energy", "energy_per_cycle", "cycle_energy", "dissipation"), ENERGIES
+    ),
+    "wear": "fret.wear.solve(scene, body2=fret.wear.Archard(k=...), cycles=...) wears the bodies",
+    "fatigue": 'it is called life, result.life("Ti-6Al-4V")',
+    **dict.fromkeys(
+        ("last", "final", "end", "snapshot", "snapshots", "increments", "steps", "frames"),
+        "result.at(-1) is the last increment that kept its fields, list(result) has all of them",
+    ),
+    **dict.fromkeys(
+        ("columns", "variables", "units", "to_numpy", "to_dict", "keys", "items", "values"),
+        "result.dataset has all numbers with their units, result.to_dataframe() is their table",
+    ),
+}
 #: Scalars of an increment that add up over a branch.
 SUMMED = frozenset(
     (
@@ -100,7 +125,13 @@ class Run(OfRun):
             fields[name] = "of a line contact it is half_width"
         public = (member for member in dir(type(self)) if not member.startswith("_"))
         names = [*scalars, *map(str, self.dataset.attrs), *public]
-        raise attribute_error("result", name, names, fields)
+        for field in meant(name, [*fields]) if not meant(name, names) else ():
+            fields.setdefault(name, fields[field])
+        raise attribute_error("result", name, names, {**CALLS, **fields})
+
+    def __iter__(self) -> Iterator[State]:  # type: ignore[override]
+        """Go through the increments whose fields were kept, the first one first."""
+        return (self.at(int(number)) for number in self.dataset.saved_increment.values)
 
     def __dir__(self) -> list[str]:
         """The names of the class, and the scalars of every increment."""
@@ -268,7 +299,11 @@ class Run(OfRun):
             if variable.dims == ("increment",) and name not in self.dataset.indexes:
                 values = variable.values
                 kept = np.add.reduceat(values, starts) if name in SUMMED else values[ends]
-                columns[name] = ("branch", kept, variable.attrs)
+                attrs = dict(variable.attrs)
+                if name in SUMMED:
+                    meaning = str(attrs.get("long_name", ""))
+                    attrs["long_name"] = meaning.replace("in the increment", "in the branch")
+                columns[name] = ("branch", kept, attrs)
         if errors := self.dataset.attrs.get("path_error"):
             about = {"units": "1", "long_name": "estimated error of the shear from the increments"}
             columns["path_error"] = ("branch", np.asarray(errors, float)[branch[ends]], about)

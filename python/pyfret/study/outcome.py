@@ -112,7 +112,10 @@ class Study(Saveable, Labelled, Figured):
                 stacklevel=2,
             )
         scalars = d[[name for name, dims in field_dims.items() if not dims]]
-        return scalars.to_dataframe().reset_index().rename(columns=self._heads(scalars))
+        from pyfret._util.frame import Frame
+
+        rows = scalars.to_dataframe().reset_index()
+        return Frame(rows.rename(columns=self._heads(scalars)))
 
     def _heads(self, scalars: xr.Dataset) -> dict[str, str]:
         """Return the heads of the columns: names with their units, per metre in line contacts."""
