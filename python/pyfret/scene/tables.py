@@ -82,8 +82,23 @@ def body_rows(name: str, body: Body) -> list[list[str]]:
     rows = [[name, "surface", shape_in_words(body.shape)]]
     for n, coating in enumerate(body.coatings):
         thick = length(coating.thickness)
-        rows.append(["", f"coating {n + 1}", f"{thick}, {material(coating.material)}"])
-    return [*rows, ["", "substrate", material(body.substrate)]]
+        made_of = f"{thick}, {material(coating.material)}{residual_in_words(coating.residual)}"
+        rows.append(["", f"coating {n + 1}", made_of])
+    made_of = f"{material(body.substrate)}{residual_in_words(body.residual)}"
+    return [*rows, ["", "substrate", made_of]]
+
+
+def residual_in_words(residual: float | Sequence[Sequence[float]] | None) -> str:
+    """Describe the residual stress of a layer; nothing where there is none."""
+    if residual is None:
+        return ""
+    if isinstance(residual, float | int):
+        return f", residual stress {number(residual / 1e6)} MPa" if residual else ""
+    rows = np.asarray(residual, dtype=float)
+    if not rows.size or not rows[:, 1:].any():
+        return ""
+    low, high = number(rows[:, 1:].min() / 1e6), number(rows[:, 1:].max() / 1e6)
+    return f", residual stress {low} to {high} MPa, to a depth of {length(float(rows[-1, 0]))}"
 
 
 def scene_rows(scene: Scene) -> list[list[str]]:

@@ -45,6 +45,8 @@ class DescribesScenes(Protocol):
         """Return a text that differs if the scenes differ."""
 
 
+#: Most keys that a shortened name may mean for a message.
+MOST_MEANT = 3
 #: The dimension of a study whose parameters change together.
 TOGETHER = "point"
 
@@ -77,7 +79,8 @@ def with_values(scene: Scene | str | PathLike[str], values: Mapping[str, Any]) -
         By the keys of a scene file, such as ``"body2.coatings.0.thickness"`` or
         ``"path.1.T_x.mu_W"``; ``"mu"`` is short for ``"friction.mu"``. ``"path.*.W"`` stands for
         every branch. Several keys with commas between get the same value, and a key after a ``-``
-        the opposite one. So ``"path.1.T_x,-path.2.T_x,path.3.T_x"`` is an amplitude.
+        the opposite one. So ``"path.1.T_x,-path.2.T_x,path.3.T_x"`` is an amplitude. Of a
+        :class:`Scene` a part of a key is enough where one key alone has it, ``"body1.R"``.
 
     Raises
     ------
@@ -99,13 +102,56 @@ def with_values(scene: Scene | str | PathLike[str], values: Mapping[str, Any]) -
     if not isinstance(scene, Scene):
         return replace_parts(Scene.from_file(scene, set=settings), objects)
     keys = {key for key, _, _ in expanded}
-    made = Scene.from_toml(text_of_scene(scene, keys), set=settings) if settings else scene
+    text = text_of_scene(scene, keys) if settings else ""
+    try:
+        made = Scene.from_toml(text, set=settings) if settings else scene
+    except InvalidSceneError as error:
+        meant = {name: keys_meant(name, text) for name in values}
+        if "unknown key" not in str(error) or not any(meant.values()):
+            raise
+        if all(len(names) < 2 for names in meant.values()):
+            return with_values(scene, {(meant[k] or [k])[0]: value for k, value in values.items()})
+        hints = [" or ".join(map(repr, names)) for names in meant.values() if names]
+        raise InvalidSceneError(f"{error}; did you mean {' and '.join(hints)}?") from None
     made = replace_parts(made, objects)
     warn_single_branch(values, scene)
     if callable(scene.friction.law):
         # A function stands in no text.
         return made.replace(friction=made.friction.replace(law=scene.friction.law))
     return made
+
+
+def keys_of_document(part: Any, start: str = "") -> Iterator[str]:
+    """Give the keys of the values of a document, with points between their names."""
+    entries = part.items() if isinstance(part, dict) else enumerate(part)
+    for name, value in entries:
+        key = f"{start}{name}"
+        is_nested = isinstance(value, dict) or (
+            isinstance(value, list) and bool(value) and isinstance(value[0], dict)
+        )
+        if is_nested:
+            yield from keys_of_document(value, f"{key}.")
+        else:
+            yield key
+
+
+def keys_meant(name: str, text: str) -> list[str]:
+    """Return the keys of a scene that a shortened name such as ``body1.R`` may mean.
+
+    None where the name is a key itself, or where more than three fit. The parts of the name stand
+    in the key in this order, the last one at its end. A plural counts.
+    """
+    parts = [part.lower().rstrip("s") for part in single(name).split(".")]
+    document = parse_toml(text)
+    document.pop("path", None)
+    fitting = []
+    for key in keys_of_document(document):
+        words = [word.lower().rstrip("s") for word in key.split(".")]
+        rest = iter(words)
+        if words[-1] == parts[-1] and all(part in rest for part in parts):
+            fitting.append(key)
+    is_known = single(name) in fitting or single(name) in SHORT
+    return [] if is_known or len(fitting) > MOST_MEANT else fitting
 
 
 def is_part(value: Any) -> bool:

@@ -13,6 +13,7 @@ import numpy as np
 from pyfret import fracture, wear
 from pyfret._core import TOO_FEW_INCREMENTS
 from pyfret._util.bounds import split
+from pyfret._util.keywords import nearest_names
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import um
 from pyfret.fatigue.section import Materials
@@ -264,7 +265,7 @@ class Arrest:
     """
 
     threshold: fracture.Threshold
-    x: float | None = None
+    x: InSI[Length | None] = by_default(None)
     lengths: Sequence[CrackLength] | None = None
     angle: InSI[Angle] = by_default(0.0)
     azimuth: InSI[Angle | None] = by_default(None)
@@ -315,7 +316,7 @@ class FirstToFail:
     shear_strength: InSI[Strength | None] = by_default(None)
     threshold: fracture.Threshold | None = None
     residual: LayerStresses | None = None
-    x: float | None = None
+    x: InSI[Length | None] = by_default(None)
     lengths: Sequence[CrackLength] | None = None
     body_number: int = 2
 
@@ -388,11 +389,19 @@ def check_measures(measure: Measure | Sequence[Measure]) -> list[Measure]:
     """Return the measures as a list; a ValueError for an unknown measure lists the names."""
     if not (isinstance(measure, str | Iterable) or callable(measure)):
         raise TypeError(f"measure = {measure!r:.60}: must be a function or the name of a measure")
+    if isinstance(measure, Mapping):
+        name = str(next(iter(measure), "p_max"))
+        raise TypeError(
+            f"measure: must be names and functions, not a mapping; the name of a function is that "
+            f"of its number: def {name:.60}(result): return ..."
+        )
     measures = [measure] if isinstance(measure, str) or callable(measure) else list(measure)
     for entry in measures:
         if isinstance(entry, str) and entry not in MEASURES:
+            near = nearest_names(entry, MEASURES, 3)
+            hint = f"; the nearest is {' or '.join(near)}" if near else ""
             raise ValueError(
-                f"measure {entry!r}: must be a function or one of {', '.join(MEASURES)}"
+                f"measure {entry!r:.60}: must be a function or one of {', '.join(MEASURES)}{hint}"
             )
         if not (isinstance(entry, str) or callable(entry) or is_of_pyfret(entry)):
             raise TypeError(f"measure = {entry!r:.60}: must be a function or the name of a measure")
