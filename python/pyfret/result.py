@@ -12,6 +12,7 @@ from pyfret.export.write import write as export
 from pyfret.quantities import (
     Angle,
     LayerStresses,
+    Length,
     Lengths,
     Numbers,
     Unchecked,
@@ -164,8 +165,8 @@ class Result(Run, Shows):
         self,
         z: Lengths | None = None,
         *,
-        x: float | None = None,
-        y: float | None = None,
+        x: Length | None = None,
+        y: Length | None = None,
         azimuth: Angle | None = None,
         of: Sequence[str] = ("von_mises",),
         body_number: int = 2,

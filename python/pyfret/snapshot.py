@@ -6,7 +6,15 @@ from typing import TYPE_CHECKING, Literal
 
 from pyfret._util.figures import Figured, Figures
 from pyfret.export.write import write as export
-from pyfret.quantities import Angle, LayerStresses, Lengths, as_layers, as_number, quantities
+from pyfret.quantities import (
+    Angle,
+    LayerStresses,
+    Length,
+    Lengths,
+    as_layers,
+    as_number,
+    quantities,
+)
 from pyfret.run import State
 from pyfret.run.tables import state_html
 from pyfret.subsurface import contact
@@ -90,7 +98,7 @@ class Snapshot(State, Shows):
 
     @quantities
     def along(
-        self, *, x: float | None = None, y: float | None = None, azimuth: Angle | None = None
+        self, *, x: Length | None = None, y: Length | None = None, azimuth: Angle | None = None
     ) -> xr.Dataset:
         """Fields on a line of the surface, linear between the centres of the cells.
 
@@ -116,15 +124,17 @@ class Snapshot(State, Shows):
         """
         if x is not None and y is not None and azimuth is None:
             raise ValueError("give x or y, or an azimuth as well: a point is no line")
-        return fields_on(self, contact.line_below(self, None, x, y, as_number(azimuth))[0])
+        return fields_on(
+            self, contact.line_below(self, None, as_number(x), as_number(y), as_number(azimuth))[0]
+        )
 
     @quantities
     def stress(
         self,
         z: Lengths | None = None,
         *,
-        x: float | None = None,
-        y: float | None = None,
+        x: Length | None = None,
+        y: Length | None = None,
         azimuth: Angle | None = None,
         body_number: int = 2,
         bulk: bool = True,
@@ -169,8 +179,8 @@ class Snapshot(State, Shows):
         return contact.stress_below(
             self,
             z,
-            x=x,
-            y=y,
+            x=as_number(x),
+            y=as_number(y),
             azimuth=as_number(azimuth),
             body_number=body_number,
             bulk=bulk,
@@ -182,29 +192,34 @@ class Snapshot(State, Shows):
         self,
         z: Lengths | None = None,
         *,
-        x: float | None = None,
-        y: float | None = None,
+        x: Length | None = None,
+        y: Length | None = None,
         azimuth: Angle | None = None,
         body_number: int = 2,
     ) -> xr.Dataset:
         """Displacements u_x, u_y, u_z of a body below the contact [m], as in :meth:`stress`."""
         return contact.displacement_below(
-            self, z, x=x, y=y, azimuth=as_number(azimuth), body_number=body_number
+            self,
+            z,
+            x=as_number(x),
+            y=as_number(y),
+            azimuth=as_number(azimuth),
+            body_number=body_number,
         )
 
     @quantities
-    def stick_zone(self, *, y: float = 0.0) -> Zone:
+    def stick_zone(self, *, y: Length = 0.0) -> Zone:
         """Return the ends of the stick zone along a line of constant `y` [m], within the cells.
 
         Its ``left`` and ``right`` border and its ``middle``, the offset that a bulk stress gives
         it, in m; NaN where nothing sticks.
         """
-        return zone(self, "stick", y)
+        return zone(self, "stick", as_number(y))
 
     @quantities
-    def contact_zone(self, *, y: float = 0.0) -> Zone:
+    def contact_zone(self, *, y: Length = 0.0) -> Zone:
         """Return the ends of the contact along a line of constant `y`, as :meth:`stick_zone`."""
-        return zone(self, "contact", y)
+        return zone(self, "contact", as_number(y))
 
     @quantities
     def write_volume(

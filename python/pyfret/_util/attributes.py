@@ -12,7 +12,13 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
     from types import ModuleType
 
-__all__ = ["attribute_error", "dataset_attribute", "dataset_names", "missing_attribute"]
+__all__ = [
+    "attribute_error",
+    "dataset_attribute",
+    "dataset_item",
+    "dataset_names",
+    "missing_attribute",
+]
 
 #: Modules of the public face that are loaded, by their names; the package enters them.
 PUBLIC_MODULES: dict[str, ModuleType] = {}
@@ -41,6 +47,14 @@ OWNERS = {
     "Scene": "fret.solve(scene)",
     "Statistics": "surface",
     "Zone": "result",
+}
+#: Numbers of the table of materials that an elastic material does not have.
+TABLE = {
+    **dict.fromkeys(("hardness", "h", "hv"), "hardness"),
+    **dict.fromkeys(("yield_strength", "yield_stress", "yield_", "s_y", "rp02"), "s_y"),
+    **dict.fromkeys(("conductivity", "thermal_conductivity"), "conductivity"),
+    **dict.fromkeys(("density", "rho"), "density"),
+    **dict.fromkeys(("fatigue_limit", "endurance_limit", "s_d"), "s_D"),
 }
 #: Dimensions of a dataset that are coordinates of points.
 PLACES = ("x", "y", "s", "z", "depth")
@@ -99,6 +113,10 @@ def missing_attribute(self: Any, name: str, elsewhere: Mapping[str, str] | None 
         # A property that failed has its own error.
         object.__getattribute__(self, name)
     public = [member for member in dir(self) if not member.startswith("_")]
+    if kind.__name__ == "Elastic" and (of_table := TABLE.get(name.lower())):
+        row = 'fret.fatigue.Materials()["Ti-6Al-4V"]'
+        hint = f"it is a number of the table of materials, {row}.number({of_table!r})"
+        raise attribute_error(kind.__name__, name, public, {name: hint})
     # A word for a method of its own comes before another way to write or draw the whole.
     outputs = {k: call for k, call in output_calls(kind).items() if not meant(k, sorted(public))}
     where = {**outputs, **(elsewhere or {})}
@@ -138,6 +156,40 @@ def dataset_attribute(self: Any, name: str) -> Any:
     first = next(map(str, dataset.data_vars), "")
     drawn = {"plot": f"xarray draws its numbers, .dataset[{first!r}].plot()"}
     missing_attribute(self, name, {**drawn, "save": "it is written by .to_csv(path)", **last})
+
+
+def dataset_item(self: Any, name: str, hint: str = "") -> Any:
+    """Return an array of an object by its name: the ``__getitem__`` of classes with a dataset.
+
+    Parameters
+    ----------
+    self : object
+        Its attribute ``dataset`` has the variables. Other arrays are attributes of it.
+    name : str
+        Name of the array.
+    hint : str
+        Clause for a key that is no name.
+
+    Raises
+    ------
+    TypeError
+        The key is no text.
+    KeyError
+        There is no such array; the message has the nearest names.
+    """
+    dataset = self.dataset
+    if not isinstance(name, str):
+        first = next(map(str, dataset.data_vars), "")
+        raise TypeError(f"{name!r:.60}: must be the name of a variable, such as {first!r}{hint}")
+    if name in dataset.variables:
+        return dataset[name]
+    try:
+        array = getattr(self, name)
+    except AttributeError as error:
+        raise KeyError(str(error)) from None
+    if not isinstance(array, xr.DataArray):
+        raise KeyError(f"{name!r:.60} is no array: it is the attribute .{name}")
+    return array
 
 
 def dataset_names(dataset: xr.Dataset) -> list[str]:

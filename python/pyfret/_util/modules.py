@@ -22,6 +22,14 @@ SYNONYMS = {
     "friction_coefficient": "fit.fit",
     "mu": "fit.fit",
     "grid": "study.run",
+    "list_materials": "materials",
+    "sphere_on_flat": "Scene.ball_on_flat",
+    "ball_on_flat": "Scene.ball_on_flat",
+    "cylinder_on_flat": "Scene.cylinder_on_flat",
+    "read_topography": "read_surface",
+    "load_surface": "read_surface",
+    "peening": "Body",
+    "criteria": "fatigue.Criterion",
     "sweep": "study.run",
     "parametric": "study.run",
     "parameter_study": "study.run",
@@ -43,7 +51,8 @@ def name_hint(name: str, module: str = "") -> str:
     module : str
         Public module that was asked for it, such as "study"; empty for the package.
     """
-    own = getattr(PUBLIC_MODULES.get(module) or sys.modules["pyfret"], "__all__", ())
+    loaded = PUBLIC_MODULES.get(module) or sys.modules.get(f"pyfret.{module}")
+    own = getattr(loaded or sys.modules["pyfret"], "__all__", ())
     elsewhere = [
         f"{key}.{name}"
         for key, public in sorted(PUBLIC_MODULES.items())
@@ -56,7 +65,8 @@ def name_hint(name: str, module: str = "") -> str:
         for word in nearest_names(name, getattr(public, "__all__", ()), 1)
     ]
     synonym = [SYNONYMS[name]] if name in SYNONYMS else []
-    for names in (elsewhere, synonym, near, others[:2] if not module else []):
+    begun = [f"{module}.{word}" for word in own if module and word.startswith(f"{name}_")][:3]
+    for names in (begun, elsewhere, synonym, near, others[:2] if not module else []):
         if names:
             return "; did you mean " + " or ".join(f"fret.{word}" for word in names) + "?"
     return f"; it has {', '.join(own)}"

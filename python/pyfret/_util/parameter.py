@@ -166,6 +166,18 @@ def short_repr(value: Any) -> str:
         return f"<{type(value).__name__}>"
 
 
+def choices_of(hint: Any) -> list[str]:
+    """Return the texts that a type is a choice of."""
+    if typing.get_origin(hint) is not Literal:
+        return []
+    return [choice for choice in typing.get_args(hint) if isinstance(choice, str)]
+
+
+def folded(text: str) -> str:
+    """Return a choice in small letters, its words joined by ``_``: "Dang Van" is "dang_van"."""
+    return text.lower().replace("-", "_").replace(" ", "_")
+
+
 class Parameter:
     """Rules for one parameter, from its type."""
 
@@ -182,6 +194,7 @@ class Parameter:
         self.laws = [kind for kind in kinds if hasattr(kind, "_of_material")]
         self.number = number_kind(kinds)
         self.mapping = any(typing.get_origin(kind) is Mapping for kind in kinds)
+        self.mapping = self.mapping and str not in kinds
         if self.material:
             kinds = [kind for kind in kinds if kind is not str]
         self.objects = kinds if kinds and all(map(is_object, kinds)) else []
@@ -193,6 +206,8 @@ class Parameter:
         #: Whether it is a stress of each layer, of which a single one may be a number.
         several = any(typing.get_origin(kind) is Sequence for kind in kinds)
         self.layers = several and self.unit is not None and self.unit.quantity == OF_LAYERS
+        #: Texts that it has a choice of, by their words in small letters.
+        self.choices = {folded(c): c for kind in kinds for c in choices_of(kind)}
         self.path = any(names_path(kind) for kind in kinds)
         parts = [typing.get_args(kind) for kind in kinds if len(kinds) == 1]
         self.items = parts[0][-1] if parts and parts[0] and is_object(parts[0][-1]) else None
@@ -214,6 +229,8 @@ class Parameter:
         """Convert and check a value whose lists are not too deep."""
         value = self.find(value)
         self.check_class(value)
+        if self.choices and isinstance(value, str):
+            value = self.choices.get(folded(value), value)
         if self.layers and (has_unit(value) or isinstance(value, str | int | float)):
             assert self.unit is not None
             return [self.unit.convert(value)]
@@ -288,7 +305,9 @@ class Parameter:
             if plain:
                 numbers(plain, name)
         if kind != "text" and isinstance(value, str | bytes):
-            raise TypeError(f"{name} = {value!r:.60}: must be a number, not a text")
+            digits = isinstance(value, str) and value.isascii() and value.isdigit()
+            written = f": write {int(value)}" if digits else ""
+            raise TypeError(f"{name} = {value!r:.60}: must be a number, not a text{written:.40}")
         single = np.ndim(value) == 0
         if kind == "count" and not (single and hasattr(value, "__index__")):
             raise TypeError(f"{name} = {value!r:.60}: must be a whole number")

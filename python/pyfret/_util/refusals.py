@@ -22,6 +22,10 @@ WRONG_CLASSES = (OverflowError, RecursionError, AttributeError)
 NOTE = re.compile(r"while processing '(\w+)'")
 #: Begin of a refusal that repeats the value.
 VALUE = re.compile(r"[\"'\d(\[{<+-]|inf\b|nan\b|True\b|False\b|None\b")
+#: Refusal of Python to call a function without a required argument.
+MISSING = re.compile(
+    r"(\w+)\(\) missing \d+ required (?:keyword-only|positional) arguments?: (.+)$"
+)
 #: Refusal of Python to call a value.
 NOT_CALLABLE = re.compile(r"'(\w+)' object is not callable")
 #: Refusal of Python to go through a value.
@@ -61,13 +65,29 @@ def refuse_clearly(
             refusal = refuse_call(values, keywords) if isinstance(error, TypeError) else None
             if refusal is None:
                 arguments = dict(zip(names(), values, strict=False)) | keywords
-                refusal = explain(name, arguments, error)
+                refusal = name_missing(call, name, error) or explain(name, arguments, error)
             abridge_error(refusal or error)
             if refusal is None:
                 raise
         raise refusal
 
     return call_refusing
+
+
+def name_missing(call: Callable[..., Any], name: str, error: Exception) -> TypeError | None:
+    """Return the refusal of a call without a required argument, with what the argument is."""
+    missing = MISSING.search(str(error)) if isinstance(error, TypeError) else None
+    if missing is None or missing[1] != getattr(call, "__name__", ""):
+        return None
+    names = re.findall(r"'(\w+)'", missing[2])
+    documentation = getattr(call, "__doc__", None) or ""
+    described = []
+    for parameter in names:
+        entry = re.search(
+            rf"^ *(?:\w+, )*{parameter}\b[\w, ]*(?: : .*)?\n +(\S.*)", documentation, re.M
+        )
+        described.append(f"{parameter} ({entry[1].rstrip('.:')})" if entry else parameter)
+    return TypeError(f"{name} needs {' and '.join(described)}")
 
 
 def explain(name: str, arguments: Mapping[str, Any], error: Exception) -> Exception | None:

@@ -11,7 +11,15 @@ from pyfret._util.arrays import plain
 from pyfret._util.lazy import xr
 from pyfret.fatigue.criteria import COMPONENTS
 from pyfret.fatigue.plastic_strain import GROWS, plastic_strain_grows, plastic_strain_history
-from pyfret.quantities import Angle, LayerStresses, Lengths, as_layers, as_number, quantities
+from pyfret.quantities import (
+    Angle,
+    LayerStresses,
+    Length,
+    Lengths,
+    as_layers,
+    as_number,
+    quantities,
+)
 from pyfret.subsurface.contact import stress_below
 from pyfret.subsurface.fields import coordinates
 from pyfret.subsurface.line import Line
@@ -79,8 +87,8 @@ def history(
     result: Run,
     z: Lengths,
     *,
-    x: float | None = None,
-    y: float | None = None,
+    x: Length | None = None,
+    y: Length | None = None,
     azimuth: Angle | None = None,
     body_number: int = 2,
     cycle: int | None = -1,
@@ -115,7 +123,7 @@ def history(
     if of not in get_args(HistoryKind):
         raise ValueError(f"of = {of!r}: must be 'stress' or 'plastic_strain'")
     kept = cycle_increments(result, cycle)
-    line = Line(x, y, as_number(azimuth))
+    line = Line(as_number(x), as_number(y), as_number(azimuth))
     if of == "plastic_strain":
         return plastic_strain_history(result, kept, z, line, body_number)
     stress = _cycle_stress(result, kept, z, line, body_number, as_layers(residual))

@@ -139,12 +139,12 @@ class Life(Saveable, Labelled, Figured):
         return [*self._notes, *self.range.notes, *at_rim]
 
     @quantities
-    def section(self, place: float) -> Life:
+    def section(self, place: Length) -> Life:
         """Return the section nearest to a place on the axis across [m]."""
         if self.dataset.value.ndim == 2:
             return self
         across = str(self.dataset.value.dims[2])
-        n = int(np.abs(self.dataset[across].values - place).argmin())
+        n = int(np.abs(self.dataset[across].values - as_number(place)).argmin())
         if self._parts:
             return self._parts[n]
         return Life(

@@ -57,7 +57,7 @@ UNITS = {"units": "Pa m^0.5"}
 @quantities
 def crack(
     result: Run,
-    x: float | None = None,
+    x: Length | None = None,
     *,
     lengths: CrackLengths | None = None,
     angle: Angle = 0.0,
@@ -121,7 +121,7 @@ def crack(
     angle = as_number(angle)
     at_rim = x is None
     plane = as_number(azimuth), as_number(offset)
-    x, azimuth, offset = cycle_of.place(x, plane, angle, friction)
+    x, azimuth, offset = cycle_of.place(as_number(x), plane, angle, friction)
     if lengths is None:
         lengths = cycle_of.lengths
     lengths = np.sort(np.atleast_1d(plain(lengths, "lengths")))
@@ -156,7 +156,7 @@ def crack(
 @quantities
 def grow(
     result: Run,
-    x: float | None = None,
+    x: Length | None = None,
     *,
     start: Length | None = None,
     end: Length | None = None,
@@ -208,7 +208,7 @@ def grow(
     cycle_of = Cycle(result, cycle, body_number, as_layers(residual))
     angle = as_number(angle)
     plane = as_number(azimuth), as_number(offset)
-    x, azimuth, offset = cycle_of.place(x, plane, angle, friction)
+    x, azimuth, offset = cycle_of.place(as_number(x), plane, angle, friction)
     growth = cycle_of.contact.growth(
         x=x,
         start=cycle_of.shortest_crack(0.02) if start is None else as_number(start),

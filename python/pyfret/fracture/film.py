@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret import _core
-from pyfret.quantities import Length, as_number, quantities
+from pyfret.quantities import Length, ResidualStress, as_number, quantities
 
 if TYPE_CHECKING:
     from pyfret._core import Coating, Elastic
@@ -34,7 +34,9 @@ def own_stress(coating: Coating, stress: float | None) -> float:
 
 
 @quantities
-def channel_release(coating: Coating, below: Elastic, stress: float | None = None) -> float:
+def channel_release(
+    coating: Coating, below: Elastic, stress: ResidualStress | None = None
+) -> float:
     """Give what a crack releases that channels through a film under tension [J/m^2].
 
     G = (pi/2) g stress^2 h/E', E' = E/(1 - nu^2), in the steady state, g(alpha, beta) of Dundurs'
@@ -62,7 +64,7 @@ def channel_release(coating: Coating, below: Elastic, stress: float | None = Non
     J. L. Beuth, Int. J. Solids Struct. 29 (1992) 1657-1675; J. W. Hutchinson, Z. Suo, Adv. Appl.
     Mech. 29 (1992) 63-191, whose Z = (pi/2) g.
     """
-    stress = own_stress(coating, stress)
+    stress = own_stress(coating, as_number(stress))
     if not np.isfinite(stress):
         raise ValueError(f"stress = {stress}: must be finite")
     E, nu = coating.material.E, coating.material.nu
@@ -78,7 +80,7 @@ def channel_release(coating: Coating, below: Elastic, stress: float | None = Non
 
 @quantities
 def film_intensity(
-    coating: Coating, below: Elastic, depth: Length, stress: float | None = None
+    coating: Coating, below: Elastic, depth: Length, stress: ResidualStress | None = None
 ) -> float:
     """Give K_I of a crack normal to the surface that ends in the film [Pa m^0.5].
 
@@ -95,7 +97,7 @@ def film_intensity(
     stress : float, optional
         Stress of the film [Pa] (default: the residual stress of the coating).
     """
-    stress = own_stress(coating, stress)
+    stress = own_stress(coating, as_number(stress))
     depth = as_number(depth)
     if not 0.0 < depth < coating.thickness:
         raise ValueError(f"depth = {depth}: must lie in the film, 0 to {coating.thickness} m")

@@ -20,6 +20,7 @@ from pyfret.fracture.interface import over_cycle
 from pyfret.quantities import (
     CrackLength,
     LayerStresses,
+    Length,
     Strength,
     Toughness,
     as_layers,
@@ -100,7 +101,7 @@ def first_to_fail(
     shear_strength: Strength | None = None,
     threshold: Threshold | Material | str | None = None,
     residual: LayerStresses | None = None,
-    x: float | None = None,
+    x: Length | None = None,
     lengths: Sequence[CrackLength] | None = None,
     body_number: int = 2,
     cycle: int | None = -1,

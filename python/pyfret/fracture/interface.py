@@ -14,7 +14,7 @@ from pyfret.fatigue.cycle_section import sections_of_cycle
 from pyfret.fatigue.cycles import history
 from pyfret.fatigue.section import Section, SectionOptions
 from pyfret.fracture.film import own_stress
-from pyfret.quantities import Strength, as_number, quantities
+from pyfret.quantities import Length, ResidualStress, Strength, as_number, quantities
 from pyfret.subsurface.fields import interfaces
 
 if TYPE_CHECKING:
@@ -129,7 +129,7 @@ def _half_chord(path: np.ndarray) -> np.ndarray:
 
 
 @quantities
-def edge_release(coating: Coating, stress: float | None = None) -> float:
+def edge_release(coating: Coating, stress: ResidualStress | None = None) -> float:
     """Give what a coating releases that parts from its substrate along a straight front [J/m^2].
 
     G = (1 - nu^2) h stress^2/(2 E), the steady state far from the edge from which the crack runs;
@@ -146,7 +146,7 @@ def edge_release(coating: Coating, stress: float | None = None) -> float:
         Stress across the front, residual and of the load [Pa] (default: the residual stress of the
         coating).
     """
-    stress = own_stress(coating, stress)
+    stress = own_stress(coating, as_number(stress))
     E, nu = coating.material.E, coating.material.nu
     return (1.0 - nu * nu) * coating.thickness * stress * stress / (2.0 * E)
 
@@ -172,7 +172,7 @@ class Buckling(NamedTuple):
 
 @quantities
 def buckling_release(
-    coating: Coating, stress: float | None = None, *, half_width: float
+    coating: Coating, stress: ResidualStress | None = None, *, half_width: Length
 ) -> Buckling:
     """Give how a compressed coating buckles above a long debonded strip, and what that releases.
 
@@ -201,6 +201,7 @@ def buckling_release(
     ValueError
         The half width is not positive, or the buckling stress is 0.
     """
+    half_width = as_number(half_width)
     if not (half_width > 0.0 and np.isfinite(half_width)):
         raise ValueError(
             f"half_width = {half_width}: must be a positive length in m, half of the strip"
@@ -213,7 +214,7 @@ def buckling_release(
             f"coating: E = {E:g} Pa, {h:g} m thick on a strip of {2 * half_width:g} m, has a "
             "buckling stress of 0: must be stiffer, or the strip narrower"
         )
-    s = -own_stress(coating, stress)
+    s = -own_stress(coating, as_number(stress))
     if s <= critical:
         return Buckling(float(critical), 0.0, 0.0)
     deflection = h * np.sqrt(4.0 / 3.0 * (s / critical - 1.0))

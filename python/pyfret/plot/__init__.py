@@ -10,6 +10,7 @@ its four runs in one call.
 from typing import TYPE_CHECKING, Any
 
 from pyfret._util.extras import application
+from pyfret._util.modules import name_hint
 from pyfret._util.names import listing
 from pyfret.plot.animation import animate
 from pyfret.plot.comparison import comparison
@@ -121,6 +122,6 @@ if TYPE_CHECKING:
 def __getattr__(name: str) -> Any:
     """Import the figures of the paper at their first use."""
     if name not in ("paper", "paper_figures"):
-        raise AttributeError(f"module 'pyfret.plot' has no attribute {name!r}")
+        raise AttributeError(f"module 'pyfret.plot' has no {name!r}{name_hint(name, 'plot')}")
     paper_module = application("pyfret.plot.paper")
     return paper_module if name == "paper" else paper_module.paper_figures

@@ -135,8 +135,8 @@ def stress(
     p: Numbers | None = None,
     q_x: Numbers | None = None,
     q_y: Numbers | None = None,
-    x: float | None = None,
-    y: float | None = None,
+    x: Length | None = None,
+    y: Length | None = None,
     azimuth: Angle | None = None,
     body_number: int = 2,
     sigma_B: BulkStress = 0.0,
@@ -191,7 +191,9 @@ def stress(
         body, grid, loads, body_number, sigma_B, as_layers(residual), rim=rim, stick=stick
     )
     length = loaded_length(grid, *loads) if length is None else as_number(length)
-    return sampled_stress(below, body, grid, z, Line(x, y, as_number(azimuth)), length)
+    return sampled_stress(
+        below, body, grid, z, Line(as_number(x), as_number(y), as_number(azimuth)), length
+    )
 
 
 def sampled_stress(
@@ -221,8 +223,8 @@ def displacement(
     p: Numbers | None = None,
     q_x: Numbers | None = None,
     q_y: Numbers | None = None,
-    x: float | None = None,
-    y: float | None = None,
+    x: Length | None = None,
+    y: Length | None = None,
     azimuth: Angle | None = None,
     body_number: int = 2,
     length: Length | None = None,
@@ -233,7 +235,7 @@ def displacement(
     """
     below = subsurface(body, grid, (p, q_x, q_y), body_number)
     length = loaded_length(grid, p, q_x, q_y) if length is None else as_number(length)
-    line = Line(*_line(z, x, y), as_number(azimuth))
+    line = Line(*_line(z, as_number(x), as_number(y)), as_number(azimuth))
     return _sampled(below, body, grid, choose_depths(body, z, length), line, displacement=True)
 
 
@@ -328,8 +330,8 @@ def envelope(
     increments: Iterable[State],
     z: Lengths | None = None,
     *,
-    x: float | None = None,
-    y: float | None = None,
+    x: Length | None = None,
+    y: Length | None = None,
     azimuth: Angle | None = None,
     of: Sequence[str] = ("von_mises",),
     body_number: int = 2,
@@ -375,7 +377,7 @@ def envelope(
     # Without a yardstick, what a grid of the usual 2.4 radii has room for.
     side = grid.nx * grid.dx if grid.plane_strain else min(grid.nx * grid.dx, grid.ny * grid.dy)
     length = side / 2.4 if hertz is None else hertz.a
-    x, y = _line(z, x, y)
+    x, y = _line(z, as_number(x), as_number(y))
     depths, layers = choose_depths(body, z, length)
     stream = _core.Envelope(
         body,
