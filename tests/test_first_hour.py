@@ -1,4 +1,4 @@
-"""What people write in their first hour works: columns, items, choices, short keys, fits."""
+"""Guesses of the first hour work: columns, items, choices, short keys, fits."""
 
 from __future__ import annotations
 
@@ -94,8 +94,8 @@ def test_a_result_is_gone_through_by_its_increments(result: fret.Result, study: 
         list(study)
 
 
-def test_energies_are_told_apart(result: fret.Result) -> None:
-    """The same word over increments, branches and cycles; the sum has a name of its own."""
+def test_energies_have_names(result: fret.Result) -> None:
+    """One word is used over increments, branches and cycles; the sum has a name of its own."""
     assert result.dissipated.long_name.endswith("in the increment")
     assert result.branches().dissipated.long_name.endswith("in the branch")
     assert result.loops().dissipated.long_name.endswith("in the cycle")
@@ -210,33 +210,33 @@ def measured(
 
 def test_a_loop_alone_gives_friction_and_rig(pressed: fret.Scene) -> None:
     loops = measured(pressed, 3e-6, 1e7, 0.02)
-    found = fret.fit(pressed, loops)
-    assert list(found.known) == list(USUAL)
-    assert found.known["mu"].low < 0.5 < found.known["mu"].high
-    assert found.known["rig.stiffness"].low < 1e7 < found.known["rig.stiffness"].high
-    assert fret.fit(pressed, loops, unknown=["mu", "rig.stiffness"])["mu"] == found["mu"]
-    with pytest.raises(KeyError, match=r"no unknown 'rig.stifness'.*did you mean"):
-        found["rig.stifness"]
+    fitted = fret.fit(pressed, loops)
+    assert list(fitted.known) == list(USUAL)
+    assert fitted.known["mu"].low < 0.5 < fitted.known["mu"].high
+    assert fitted.known["rig.stiffness"].low < 1e7 < fitted.known["rig.stiffness"].high
+    assert fret.fit(pressed, loops, unknown=["mu", "rig.stiffness"])["mu"] == fitted["mu"]
+    with pytest.raises(KeyError, match=r"no unknown 'rig.stiff'.*did you mean"):
+        fitted["rig.stiff"]
     with pytest.raises(ValueError, match=r"body2.E needs its range"):
         fret.fit(pressed, loops, unknown=["body2.E"])
     alone = fret.fit(pressed, loops, unknown="mu")
     assert any('"rig.stiffness": (1e6, 1e9)' in doubt for doubt in alone.doubts)
-    assert not any("rig.stiffness" in doubt for doubt in found.doubts)
+    assert not any("rig.stiffness" in doubt for doubt in fitted.doubts)
 
 
 def test_a_spring_that_hides_the_unknowns_is_left_out(pressed: fret.Scene) -> None:
     """A loop that hardly slides: with a spring and drifts beside it nothing would be resolved."""
     loops = measured(pressed, 0.95e-6, 1e7, 0.05)
-    found = fret.fit(pressed, loops)
-    assert found.left_out == ("tilt", "drift")
-    assert found.is_resolved
-    assert found.known["mu"].low < 0.5 < found.known["mu"].high
-    assert found.known["rig.stiffness"].low < 1e7 < found.known["rig.stiffness"].high
-    assert any("tilt=True fits it" in doubt for doubt in found.doubts)
-    asked = fret.fit(
+    fitted = fret.fit(pressed, loops)
+    assert fitted.left_out == ("tilt", "drift")
+    assert fitted.is_resolved
+    assert fitted.known["mu"].low < 0.5 < fitted.known["mu"].high
+    assert fitted.known["rig.stiffness"].low < 1e7 < fitted.known["rig.stiffness"].high
+    assert any("tilt=True fits it" in doubt for doubt in fitted.doubts)
+    with_both = fret.fit(
         pressed, fret.fit.Loops.from_arrays(loops.delta, loops.T, tilt=True, drift=True)
     )
-    assert asked.left_out == ()
+    assert with_both.left_out == ()
 
 
 def test_where_a_search_for_a_loop_starts(pressed: fret.Scene) -> None:

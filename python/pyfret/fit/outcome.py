@@ -175,7 +175,7 @@ class FitResult(Saveable, HoldsArrays):
 
     @property
     def is_resolved(self) -> bool:
-        """Whether the data tell all unknowns apart and bound them."""
+        """Whether the data distinguish all unknowns and bound them."""
         if len(self.known) > 1:
             beside = np.abs(self.correlation - np.eye(len(self.known)))
             if float(beside.max()) > ALIKE:

@@ -47,7 +47,7 @@ WIDE, FARTHER = 0.15, 3.0
 THREADS = 2
 #: Errors of what a record leaves unsure that its part of a confidence of 95 % has.
 SURE = 2.0
-#: Stiffness of a rig over that of rig and contact in series, to start with.
+#: Stiffness of a rig over the stiffness of rig and contact in series, to start with.
 STIFFER = 1.5
 #: Residual without a spring or a drift over the residual with them, up to which they are left out.
 EXPLAINED = 1.2
@@ -92,9 +92,9 @@ def fit(
     Returns
     -------
     FitResult
-        Values, their 95 % confidence, doubts; :meth:`FitResult.summary`. If the unknowns cannot be
-        resolved beside the tilt and the drift that loops have by default, these are left out where
-        the residual stays the same; a doubt names them.
+        Values, their 95 % confidence, doubts; :meth:`FitResult.summary`. Tilt and drift that loops
+        have by default are left out where they hide the unknowns and the residual stays the same.
+        A doubt names them.
 
     Raises
     ------
@@ -131,14 +131,14 @@ def fit(
             simpler_sets, left_out = without_defaults(sets)
             if left_out:
                 simpler = Search(scene, [model_of(i) for i in simpler_sets], searched, executor)
-                other, best_of_other = simpler.minimize()
+                without, best_without = simpler.minimize()
                 worst = max(
-                    a / max(b, 1e-300) for a, b in zip(other.noise, fitted.noise, strict=True)
+                    a / max(b, 1e-300) for a, b in zip(without.noise, fitted.noise, strict=True)
                 )
-                if other.is_resolved and worst < EXPLAINED:
-                    solves = fitted.solves + other.solves
-                    fitted = replace(other, solves=solves, left_out=left_out)
-                    search, best = simpler, best_of_other
+                if without.is_resolved and worst < EXPLAINED:
+                    solves = fitted.solves + without.solves
+                    fitted = replace(without, solves=solves, left_out=left_out)
+                    search, best = simpler, best_without
         return search.with_posterior(fitted, best, posterior, seed) if posterior else fitted
 
 

@@ -33,8 +33,8 @@ STRESS_WORDS = frozenset(("stress", "stresses", "max_stress", "peak_stress", "mi
 #: Where the energies of a run are.
 ENERGIES = (
     "the energy of each cycle is result.loops().dissipated, the sum since the start "
-    "result.dissipated_energy, that of each branch result.branches().dissipated, "
-    "that of each increment result.dissipated"
+    "result.dissipated_energy, the energy of each branch result.branches().dissipated, "
+    "the energy of each increment result.dissipated"
 )
 #: Calls that answer a question about a run, by the words that others have for them.
 CALLS = {

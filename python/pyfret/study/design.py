@@ -106,12 +106,14 @@ def with_values(scene: Scene | str | PathLike[str], values: Mapping[str, Any]) -
     try:
         made = Scene.from_toml(text, set=settings) if settings else scene
     except InvalidSceneError as error:
-        meant = {name: keys_meant(name, text) for name in values}
-        if "unknown key" not in str(error) or not any(meant.values()):
+        candidates = {name: keys_meant(name, text) for name in values}
+        if "unknown key" not in str(error) or not any(candidates.values()):
             raise
-        if all(len(names) < 2 for names in meant.values()):
-            return with_values(scene, {(meant[k] or [k])[0]: value for k, value in values.items()})
-        hints = [" or ".join(map(repr, names)) for names in meant.values() if names]
+        if all(len(names) < 2 for names in candidates.values()):
+            return with_values(
+                scene, {(candidates[k] or [k])[0]: value for k, value in values.items()}
+            )
+        hints = [" or ".join(map(repr, names)) for names in candidates.values() if names]
         raise InvalidSceneError(f"{error}; did you mean {' and '.join(hints)}?") from None
     made = replace_parts(made, objects)
     warn_single_branch(values, scene)
@@ -147,8 +149,8 @@ def keys_meant(name: str, text: str) -> list[str]:
     fitting = []
     for key in keys_of_document(document):
         words = [word.lower().rstrip("s") for word in key.split(".")]
-        rest = iter(words)
-        if words[-1] == parts[-1] and all(part in rest for part in parts):
+        remaining = iter(words)
+        if words[-1] == parts[-1] and all(part in remaining for part in parts):
             fitting.append(key)
     is_known = single(name) in fitting or single(name) in SHORT
     return [] if is_known or len(fitting) > MOST_MEANT else fitting

@@ -392,8 +392,8 @@ def check_measures(measure: Measure | Sequence[Measure]) -> list[Measure]:
     if isinstance(measure, Mapping):
         name = str(next(iter(measure), "p_max"))
         raise TypeError(
-            f"measure: must be names and functions, not a mapping; the name of a function is that "
-            f"of its number: def {name:.60}(result): return ..."
+            f"measure: must be names and functions, not a mapping; the name of a function names "
+            f"its number: def {name:.60}(result): return ..."
         )
     measures = [measure] if isinstance(measure, str) or callable(measure) else list(measure)
     for entry in measures:
