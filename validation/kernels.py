@@ -13,6 +13,9 @@ import numpy as np
 import pyfret as fret
 from validation.pages import DPI
 
+#: The colour of each number of layers, the same in all panels.
+LAYER_COLOURS = {0: "C3", 1: "C0", 2: "C1", 3: "C2", 5: "C4"}
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
@@ -98,7 +101,8 @@ def write(folder: Path) -> str:
             for count in np.unique(layers):
                 of = np.flatnonzero(layers == count)
                 shown = np.maximum(errors[of], 1e-17)
-                ax.semilogy(of, shown, ".", ms=4, label=f"{count} layers")
+                label = f"{count} layer" if count == 1 else f"{count} layers"
+                ax.semilogy(of, shown, ".", ms=4, color=LAYER_COLOURS[int(count)], label=label)
             ax.set(xlabel="entry", title=name)
             ax.legend(fontsize=7)
             counts = ", ".join(str(count) for count in np.unique(layers))

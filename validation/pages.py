@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import cycle
 from typing import TYPE_CHECKING
 
 import matplotlib.pyplot as plt
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
 DPI = 110
 #: Colours of the figures.
 COLOURS = 128
+#: Markers of curves, whose colours repeat after seven.
+MARKERS = "os^Dv<>P"
 
 
 def percent(error: float) -> str:
@@ -45,6 +48,12 @@ def table(ladder: Ladder, counted: str, order: Callable[[str], float] | None) ->
     return "\n".join(rows)
 
 
+def whole_decades(limits: tuple[float, float]) -> tuple[float, float]:
+    """Widen the limits of a logarithmic axis to powers of ten, so that two have labels."""
+    low, high = (math.log10(limit) for limit in limits)
+    return 10.0 ** math.floor(low), 10.0 ** math.ceil(high)
+
+
 def convergence(outcome: Outcome, file: Path) -> None:
     """Draw the errors against the number of cells and of increments."""
     ladders = [(outcome.grids, "cells a side")]
@@ -57,10 +66,10 @@ def convergence(outcome: Outcome, file: Path) -> None:
             1, len(ladders), figsize=(1.6 + 3.8 * len(ladders), 3.2), squeeze=False
         )
         for ax, (ladder, counted) in zip(row[0], ladders, strict=True):
-            for name in ladder.names():
+            for name, marker in zip(ladder.names(), cycle(MARKERS)):
                 errors = [abs(error) for error in ladder.errors(name)]
                 if max(errors) > 0:
-                    ax.loglog(ladder.sizes, errors, "o-", label=name)
+                    ax.loglog(ladder.sizes, errors, f"{marker}-", label=name)
             top = max(abs(e) for name in ladder.names() for e in ladder.errors(name))
             for power, dash in ((1, ":"), (2, "--")):
                 slope = [top * (ladder.sizes[0] / n) ** power for n in ladder.sizes]
@@ -68,6 +77,7 @@ def convergence(outcome: Outcome, file: Path) -> None:
             ax.set(xlabel=counted, ylabel="error")
             ax.set_xticks(ladder.sizes, [str(n) for n in ladder.sizes])
             ax.minorticks_off()
+            ax.set_ylim(whole_decades(ax.get_ylim()))
         row[0][-1].legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5))
         figure.savefig(file, dpi=DPI)
         plt.close(figure)
