@@ -78,6 +78,8 @@ def act_at_random(browser: Any, url: str, *, seconds: float) -> list[int]:
         user.settle()
     for user, mu in zip(users, LAST, strict=True):
         user.go("out")
+        # The text follows the scene by a call of the server.
+        user.view.wait_for_selector(f"#toml:has-text('{mu}')", timeout=PATIENCE)
         assert fret.Scene.from_toml(user.view.inner_text("#toml")).mu == mu
         user.close()
     return sizes

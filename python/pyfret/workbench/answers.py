@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ctypes
+import os
 import threading
 import warnings
 from collections import OrderedDict
@@ -140,7 +142,15 @@ class Recent(Generic[T]):
             self._kept[key] = value
             while len(self._kept) > KEPT:
                 self._kept.popitem(last=False)
+        return_free_memory()
         return value
+
+
+def return_free_memory() -> None:
+    """Return freed memory to the system; glibc keeps it for the threads that freed it."""
+    trim = getattr(ctypes.CDLL(None), "malloc_trim", None) if os.name == "posix" else None
+    if trim is not None:
+        trim(0)
 
 
 #: Results by the text of their scenes, answers by the names of the materials as well.
