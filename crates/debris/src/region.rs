@@ -71,8 +71,9 @@ impl Region {
         Self::from_levels(lattice, &level)
     }
 
-    /// The region of positive `level`, whose border lies where the level, linear between two
-    /// centres, vanishes.
+    /// The region of positive `level`, such as a limit less the gap. Its border lies where the level, linear
+    /// between two centres, vanishes. Where the level jumps, as at the edge of a flat pad, it lies on the side
+    /// of the cell: see [`distance`].
     pub fn from_levels(lattice: Lattice, level: &[f64]) -> Self {
         let cells: Vec<usize> = (0..lattice.cells()).filter(|&n| level[n] > 0.0).collect();
         let mut index = vec![usize::MAX; lattice.cells()];
@@ -80,19 +81,29 @@ impl Region {
             index[n] = k;
         }
         let Lattice { columns, rows, .. } = lattice;
-        let side = |n: usize, next: Option<usize>, sealed: bool| match next {
-            Some(m) if index[m] != usize::MAX => Side::Closed(index[m]),
-            Some(m) => Side::Border((level[n] / (level[n] - level[m])).clamp(NEAREST, 1.0)),
-            None if sealed => Side::Sealed,
-            None => Side::Border(HALF),
+        let side = |n: usize, next: [Option<usize>; 2], sealed: bool| match next {
+            [Some(m), _] if index[m] != usize::MAX => Side::Closed(index[m]),
+            [Some(m), beyond] => {
+                let beyond = beyond.map_or(f64::NEG_INFINITY, |k| level[k]);
+                Side::Border(distance(level[n], level[m], beyond).clamp(NEAREST, 1.0))
+            }
+            [None, _] if sealed => Side::Sealed,
+            [None, _] => Side::Border(HALF),
+        };
+        // The next two cells, `index` being the place along an axis of `count` cells.
+        let low = |n: usize, index: usize, step: usize| {
+            [1, 2].map(|k| (index >= k).then(|| n - k * step))
+        };
+        let high = |n: usize, (index, count): (usize, usize), step: usize| {
+            [1, 2].map(|k| (index + k < count).then(|| n + k * step))
         };
         let sides = cells.iter().map(|&n| {
             let (i, j) = (n / rows, n % rows);
             [
-                side(n, (i > 0).then(|| n - rows), false),
-                side(n, (i + 1 < columns).then(|| n + rows), false),
-                side(n, (j > 0).then(|| n - 1), lattice.sealed[0]),
-                side(n, (j + 1 < rows).then(|| n + 1), lattice.sealed[1]),
+                side(n, low(n, i, rows), false),
+                side(n, high(n, (i, columns), rows), false),
+                side(n, low(n, j, 1), lattice.sealed[0]),
+                side(n, high(n, (j, rows), 1), lattice.sealed[1]),
             ]
         });
         Self {
@@ -146,5 +157,55 @@ impl Region {
         }
         let mirrored = self.lattice.sealed.iter().any(|sealed| *sealed);
         along_x.min(range(&|n| n % rows) * dy * if mirrored { 2.0 } else { 1.0 })
+    }
+}
+
+/// Distance \[cells\] of the border from the centre of a closed cell, from the levels of this cell, of the open
+/// cell next to it, and of the cell `beyond`:
+///
+/// ```text
+/// theta = 1/2 + (theta_linear - 1/2) w,   theta_linear = L_0/(L_0 - L_1),   w = L_2/L_1 - 1, within 0 to 1
+/// ```
+///
+/// A level that vanishes at theta and falls at least linearly has w = 1. A level that is flat outside
+/// (w = 0) jumps between the cells, and linear interpolation would move the border by up to half a cell.
+fn distance(closed: f64, open: f64, beyond: f64) -> f64 {
+    let linear = closed / (closed - open);
+    let slope = if open < 0.0 { beyond / open - 1.0 } else { 1.0 };
+    HALF + (linear - HALF) * slope.clamp(0.0, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Lattice, Region, Side};
+
+    /// Distances of both borders of a line of levels.
+    fn borders(level: &[f64]) -> Vec<f64> {
+        let region = Region::from_levels(Lattice::line(level.len(), 1.0), level);
+        let border = |side: &Side| match side {
+            Side::Border(theta) => Some(*theta),
+            Side::Closed(_) | Side::Sealed => None,
+        };
+        region.sides.iter().flatten().filter_map(border).collect()
+    }
+
+    #[test]
+    fn a_border_lies_where_the_level_vanishes_or_jumps() {
+        // A level that vanishes 2.3 cells from the middle of cell 4.
+        let slope: Vec<f64> = (0..9_i32)
+            .map(|i| 2.3 - (f64::from(i) - 4.0).abs())
+            .collect();
+        assert!(
+            borders(&slope)
+                .iter()
+                .all(|theta| (theta - 0.3).abs() < 1e-12)
+        );
+        // A flat pad, whose edges are steps of any height.
+        for outside in [-1e-3, -1.0, -1e3] {
+            let pad: Vec<f64> = (0..9)
+                .map(|i| if (2..7).contains(&i) { 1.0 } else { outside })
+                .collect();
+            assert_eq!(borders(&pad), [0.5, 0.5]);
+        }
     }
 }
