@@ -46,10 +46,13 @@ impl Attempt {
     ) -> Result<Self, Error> {
         let whole = model.jump(worn, n, true)?;
         let pressure = model.pressures();
+        let end = model.take_end();
         model.restore(start);
+        model.start_towards(end.as_ref(), 0.5);
         let first = model.jump(worn, 0.5 * n, true)?;
         let mut middle = worn.clone();
         middle.add(&first);
+        model.start_towards(end.as_ref(), 1.0);
         let second = model.jump(&middle, 0.5 * n, true)?;
         let pressure_error = relative_difference(&pressure, &model.pressures());
         let one_half = first.depth.clone();

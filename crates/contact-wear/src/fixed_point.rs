@@ -17,8 +17,8 @@ const HOLDS_REGION: usize = 30;
 
 /// An evaluation of the fixed point.
 pub(crate) enum Step {
-    /// The loss has settled.
-    Settled(Loss),
+    /// The loss and its fields have settled.
+    Settled(Loss, ThirdFields),
     /// The fields of the next evaluation.
     Next(ThirdFields),
 }
@@ -67,7 +67,7 @@ impl FixedPoint {
         if let Some(last) = &self.last {
             self.change = last.depth_change(&loss).max(misfit(fields, &image));
             if self.change <= self.enough {
-                return Step::Settled(loss);
+                return Step::Settled(loss, image);
             }
         }
         self.last = Some(loss);

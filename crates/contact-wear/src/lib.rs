@@ -35,6 +35,7 @@ mod mixed_cells;
 mod model;
 mod on_grid;
 mod outward;
+mod own_friction;
 mod passage;
 mod peak;
 mod pressing;

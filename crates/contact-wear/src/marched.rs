@@ -350,7 +350,7 @@ impl Marched {
             } else {
                 &fields.bed
             };
-            let mut loss = self.loss_at_rates(worn, n, &rates, bed, p, implicit)?;
+            let loss = self.loss_at_rates(worn, n, &rates, bed, p, implicit)?;
             if implicit {
                 for c in 0..cells {
                     let depth = loss.depth[0][c] + loss.depth[1][c];
@@ -380,16 +380,23 @@ impl Marched {
                 dissipated: &dissipated,
                 slip: &rates.slips,
             };
-            let image = third_body.respond(worn, &meeting, (n, &supply, lost), &fields)?;
-            loss.debris = image.to_debris();
+            let jump = (n, &supply[..], lost);
+            let image = third_body.respond(worn, &meeting, jump, &fields)?;
             self.cycle_aerated.clone_from(&image.aerated);
-            if !implicit {
-                return Ok(loss);
-            }
-            match fixed_point.advance(third_body, (worn, loss), &fields, image) {
-                Step::Settled(loss) => return Ok(loss),
-                Step::Next(next) => fields = next,
-            }
+            let settled = if implicit {
+                match fixed_point.advance(third_body, (worn, loss), &fields, image) {
+                    Step::Settled(loss, image) => (loss, image),
+                    Step::Next(next) => {
+                        fields = next;
+                        continue;
+                    }
+                }
+            } else {
+                (loss, image)
+            };
+            let (mut loss, image) = settled;
+            loss.debris = third_body.debris(worn, &rates.slips, jump, &image)?;
+            return Ok(loss);
         }
         Err(fixed_point.not_converged())
     }

@@ -12,7 +12,7 @@ use super::loss::{Loss, Worn};
 use super::marched::{Marched, MarchedState};
 use super::pressing::Pressing;
 use super::settings::{Cycling, Wear};
-use super::sliding::Sliding;
+use super::sliding::{JumpEnd, Sliding};
 
 /// Method to solve the contact of a cycle.
 pub(crate) enum Model {
@@ -131,7 +131,7 @@ impl Model {
     /// Goes back to a state of this model.
     pub(crate) fn restore(&mut self, state: &ModelState) {
         match (self, state) {
-            (Self::Sliding(s), ModelState::Sliding(p)) => s.p.clone_from(p),
+            (Self::Sliding(s), ModelState::Sliding(p)) => s.restore(p),
             (Self::Marched(m), ModelState::Marched(state)) => m.state.clone_from(state),
             _ => {}
         }
@@ -151,6 +151,21 @@ impl Model {
         match self {
             Self::Sliding(s) => s.jump(worn, n, implicit),
             Self::Marched(m) => m.jump(worn, n, implicit),
+        }
+    }
+
+    /// The end of the last jump, if it had a third body in gross slip.
+    pub(crate) fn take_end(&mut self) -> Option<JumpEnd> {
+        match self {
+            Self::Sliding(s) => s.take_end(),
+            Self::Marched(_) => None,
+        }
+    }
+
+    /// Starts the iterations of the next jump a `part` of the way to the end of a longer one.
+    pub(crate) fn start_towards(&mut self, end: Option<&JumpEnd>, part: f64) {
+        if let (Self::Sliding(s), Some(end)) = (self, end) {
+            s.start_towards(end, part);
         }
     }
 
@@ -188,7 +203,7 @@ impl Model {
                     p: &s.p[middle],
                     shift: s.places[middle].shift,
                     shift_length: s.places[middle].length,
-                    aerated: &s.aerated,
+                    aerated: s.aerated(),
                     stick: None,
                     stick_ratio: 0.0,
                     dissipated_per_cycle: s.dissipated_per_cycle(),

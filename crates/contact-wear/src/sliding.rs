@@ -25,6 +25,9 @@
 //! SIAM J. Imaging Sci. 2 (2009) 183-202), and restarted where a step reverses (B. O'Donoghue, E.
 //! Candes, Found. Comput. Math. 15 (2015) 715-732).
 
+mod friction;
+mod third_body;
+
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -32,17 +35,17 @@ use contact_core::Error;
 use contact_core::plan::Plan;
 use contact_core::scene::{FrictionHistory, Scene};
 
-use super::course::{Coefficients, LayerFactor, coefficients};
-use super::fixed_point::{FixedPoint, MOST_EVALUATIONS, Step};
+use super::course::{Coefficients, coefficients};
 use super::law::CellCycle;
 use super::loss::{Loss, Worn};
 use super::on_grid;
+use super::own_friction::OwnFriction;
 use super::pressing::Pressing;
 use super::settings::{Wear, thicknesses};
 use super::shift::Shift;
 use super::stroke::{Corner, Frame, Place, stroke};
 use super::surface_friction::SurfaceFriction;
-use super::third_body::{Meeting, ThirdBody, ThirdFields};
+use super::third_body::{ThirdBody, ThirdFields};
 
 /// Change of the pressures in a round that ends the rounds, over the pressures (root mean squares).
 const LEAST_CHANGE: f64 = 1e-3;
@@ -51,8 +54,6 @@ const ROUGH: f64 = 10.0;
 /// Most corrections of a law that changes within a jump, and the relative change of the depth (root
 /// mean squares) that ends them.
 const CORRECTIONS: usize = 8;
-/// Evaluations of the oxygen under friction that depends on it.
-const AERATIONS: usize = 8;
 const AGREES: f64 = 0.01;
 /// Difference of two rates, over the largest one, up to which they are the same.
 const ROUNDING: f64 = 1e-12;
@@ -76,6 +77,9 @@ pub(crate) struct Sliding {
     /// Coefficient of the cells of the body whose layers count, before its dependence on cycles; empty
     /// where it is uniform.
     mu_of_cells: Vec<f64>,
+    /// A law of the user, and its coefficients in the cells of the grid at the places of the settled contact.
+    law: Option<OwnFriction>,
+    mu_of_places: Vec<Vec<f64>>,
     /// Error of the mean coefficient by the cells, over it.
     pub(crate) mu_error: f64,
     /// Cycles done.
@@ -88,8 +92,17 @@ pub(crate) struct Sliding {
     third_body: Option<ThirdBody>,
     /// Debris per area in the gap, in the cells of the grid \[m\]; empty without a bed.
     bed: Vec<f64>,
-    /// Aerated share of the settled contact; empty without a model of the air.
-    pub(crate) aerated: Vec<f64>,
+    /// Oxygen and debris of the settled contact.
+    present: ThirdFields,
+    /// The end of the last jump with a third body, and the fields that the next one tries first.
+    end: Option<JumpEnd>,
+    guess: Option<ThirdFields>,
+}
+
+/// Pressures and fields at the end of a jump.
+pub(crate) struct JumpEnd {
+    p: Vec<Vec<f64>>,
+    fields: ThirdFields,
 }
 
 impl Sliding {
@@ -137,6 +150,7 @@ impl Sliding {
         };
         let goes_on = state.is_some();
         let third_body = ThirdBody::new(wear, &pressing);
+        let law = OwnFriction::new(scene, &pressing, frame.body());
         let mut sliding = Self {
             shifts: places.iter().map(shifts).collect(),
             p: state.unwrap_or_else(|| h.iter().map(guess).collect()),
@@ -149,12 +163,16 @@ impl Sliding {
             history: scene.friction.history.clone(),
             surface: SurfaceFriction::new(scene),
             mu_of_cells: Vec::new(),
+            law,
+            mu_of_places: Vec::new(),
             mu_error: 0.0,
             cycles: worn.cycles,
             h,
             third_body,
             bed: Vec::new(),
-            aerated: Vec::new(),
+            present: ThirdFields::default(),
+            end: None,
+            guess: None,
         };
         if goes_on {
             sliding.aerate(worn)?;
@@ -180,84 +198,10 @@ impl Sliding {
         self.aerate(worn)
     }
 
-    /// Computes the aerated share and the coefficients of friction for the present pressures.
-    fn aerate(&mut self, worn: &Worn) -> Result<(), Error> {
-        self.aerated.clear();
-        if let Some(third_body) = self.third_body.take() {
-            self.lay_bed(&worn.bed);
-            // Friction that depends on the oxygen heats the contact that consumes it.
-            let coupled = self
-                .surface
-                .as_ref()
-                .is_some_and(SurfaceFriction::depends_on_air);
-            for _ in 0..if coupled { AERATIONS } else { 1 } {
-                let contact = self.meet(worn, &self.aerated.clone());
-                let fields = third_body.begin(worn, &contact.meeting())?;
-                self.aerated = fields.aerated;
-            }
-            self.third_body = Some(third_body);
-        }
-        self.mu_of_cells = match &self.surface {
-            Some(surface) => {
-                let fields = ThirdFields::present(&self.aerated, &self.bed);
-                self.mu_of_body(surface, surface.body, worn, &fields)
-            }
-            None => Vec::new(),
-        };
-        self.mu_error = self.surface.as_ref().map_or(0.0, |surface| {
-            let ways = &self.integrate(&self.p)[surface.body];
-            let rows = self.pressing.rows();
-            surface.error(rows, ways, &self.mu_of_cells, &worn.depth[surface.body])
-        });
-        Ok(())
-    }
-
-    /// Coefficients of friction of the cells of body b, before their dependence on cycles.
-    fn mu_of_body(
-        &self,
-        surface: &SurfaceFriction,
-        b: usize,
-        worn: &Worn,
-        fields: &ThirdFields,
-    ) -> Vec<f64> {
-        let aerated = &self.carry(&fields.aerated, 1.0)[b];
-        let bed = &self.carry(&fields.bed, 0.0)[b];
-        let of_layers = surface.mu_of_layers(&worn.depth[surface.body]);
-        let of_layers = if b == surface.body || !surface.has_layers() {
-            of_layers
-        } else {
-            self.carry_across(&of_layers, surface.body)
-        };
-        let cells = of_layers.iter().enumerate();
-        cells
-            .map(|(c, mu)| surface.combine(*mu, c, aerated, bed))
-            .collect()
-    }
-
-    /// A field of body `from` in the coordinates of the other body: for each cell the mean over all cells that
-    /// pass it, weighted with the pressure.
-    fn carry_across(&self, field: &[f64], from: usize) -> Vec<f64> {
-        let largest = self.p.iter().flatten().fold(0.0, |m: f64, p| m.max(*p));
-        let least = 1e-9 * largest + f64::MIN_POSITIVE;
-        let (rows, to) = (self.pressing.rows(), 1 - from);
-        let mut sums = [0, 1].map(|_| vec![0.0; field.len()]);
-        for (i, place) in self.places.iter().enumerate() {
-            let mut at_place = vec![0.0; field.len()];
-            self.shifts[i][from].read(field, rows, &mut at_place);
-            let weight: Vec<f64> = self.p[i].iter().map(|p| p + least).collect();
-            let product: Vec<f64> = weight.iter().zip(&at_place).map(|(w, f)| w * f).collect();
-            self.shifts[i][to].put(&product, place.slip, rows, &mut sums[0]);
-            self.shifts[i][to].put(&weight, place.slip, rows, &mut sums[1]);
-        }
-        let mean = |(c, (sum, weight)): (usize, (&f64, &f64))| {
-            if *weight > 0.0 {
-                sum / weight
-            } else {
-                field[c]
-            }
-        };
-        let cells = sums[0].iter().zip(&sums[1]).enumerate();
-        cells.map(mean).collect()
+    /// Goes back to pressures at the places.
+    pub(crate) fn restore(&mut self, p: &[Vec<f64>]) {
+        self.p.clone_from_slice(p);
+        self.guess = None;
     }
 
     /// The loss of both bodies in n cycles; sets the pressures at its end. If `implicit`, it follows from
@@ -276,7 +220,7 @@ impl Sliding {
         self.pressing.begin();
         let mut last: Option<Loss> = None;
         for correction in 0..=CORRECTIONS {
-            self.iterate(worn, n, &rates)?;
+            self.iterate(worn, n, &rates, LEAST_CHANGE)?;
             let ways = self.integrate(&self.p);
             let loss = self.loss(n, &rates, &ways);
             let has_settled = |last: &Loss| {
@@ -286,12 +230,17 @@ impl Sliding {
                 });
                 moved <= AGREES * AGREES * size
             };
-            if correction == CORRECTIONS || last.as_ref().is_some_and(has_settled) {
+            let ends = correction == CORRECTIONS || last.as_ref().is_some_and(has_settled);
+            if ends && self.law.is_none() {
                 return Ok(loss);
             }
             let corrected = self.rates(worn, n, &ThirdFields::default())?;
-            if corrected.agree_with(&rates, &ways) {
-                return Ok(loss);
+            if ends || corrected.agree_with(&rates, &ways) {
+                // Energy by a law of the user follows from the last pressures.
+                return Ok(match self.law {
+                    Some(_) => self.loss(n, &corrected, &ways),
+                    None => loss,
+                });
             }
             last = Some(loss);
             rates = corrected;
@@ -299,157 +248,15 @@ impl Sliding {
         unreachable!("the last correction returns")
     }
 
-    /// The loss of both bodies in n cycles with oxygen and debris, which follow from the contact at the end of
-    /// the jump.
-    fn jump_with_third_body(
+    /// Solves the pressures at all places at given rates, round by round, accelerated, until a round changes
+    /// them by the part `least_change` (root mean squares).
+    fn iterate(
         &mut self,
-        third_body: &ThirdBody,
         worn: &Worn,
         n: f64,
-        implicit: bool,
-    ) -> Result<Loss, Error> {
-        self.lay_bed(&worn.bed);
-        self.pressing.begin();
-        let before = self.meet(worn, &self.aerated.clone());
-        let mut fields = third_body.begin(worn, &before.meeting())?;
-        let mut fixed_point = FixedPoint::default();
-        for _ in 0..MOST_EVALUATIONS {
-            self.lay_bed(&fields.bed);
-            let rates = self.rates(worn, n, &fields)?;
-            if implicit {
-                self.iterate(worn, n, &rates)?;
-            }
-            let mut loss = self.loss(n, &rates, &self.integrate(&self.p));
-            let (supply, lost) = self.supply(third_body, worn, &loss, &rates.aerated);
-            let after = if implicit {
-                let mut end = worn.clone();
-                end.add(&loss);
-                Some(self.meet(&end, &fields.aerated))
-            } else {
-                None
-            };
-            let meeting = after.as_ref().unwrap_or(&before).meeting();
-            let image = third_body.respond(worn, &meeting, (n, &supply, lost), &fields)?;
-            loss.debris = image.to_debris();
-            if !implicit {
-                return Ok(loss);
-            }
-            match fixed_point.advance(third_body, (worn, loss), &fields, image) {
-                Step::Settled(loss) => return Ok(loss),
-                Step::Next(next) => fields = next,
-            }
-        }
-        Err(fixed_point.not_converged())
-    }
-
-    /// Lays the bed of debris \[m\] into the gap, if the run has one.
-    fn lay_bed(&mut self, bed: &[f64]) {
-        if self.wear.bed.is_some() {
-            self.bed.clear();
-            self.bed.extend_from_slice(bed);
-        }
-    }
-
-    /// Gap, pressure, dissipated energy and slip under the present pressures, from which oxygen and debris
-    /// follow; `aerated` is the aerated share so far.
-    fn meet(&mut self, worn: &Worn, aerated: &[f64]) -> Contact {
-        let (cells, s) = (self.pressing.cells(), self.slip_distance());
-        let mut contact = Contact {
-            gap: vec![0.0; cells],
-            p: vec![0.0; cells],
-            dissipated: Vec::new(),
-            slip: vec![s; cells],
-        };
-        let mut h = vec![0.0; cells];
-        for i in 0..self.places.len() {
-            self.gap(worn, i, &mut h);
-            let weight = self.places[i].slip / s;
-            let gap = self.pressing.loaded_gap(&h, &self.p[i]);
-            for c in 0..cells {
-                contact.gap[c] += weight * gap[c];
-                contact.p[c] += weight * self.p[i][c];
-            }
-        }
-        contact.dissipated = contact.p.iter().map(|p| self.mu() * s * p).collect();
-        if let Some(surface) = &self.surface {
-            let of_layers = surface.mu_of_layers(&worn.depth[surface.body]);
-            let mut mu = vec![0.0; cells];
-            let mut at_place = vec![0.0; cells];
-            for i in 0..self.places.len() {
-                at_place.fill(0.0);
-                let shift = &self.shifts[i][surface.body];
-                shift.read(&of_layers, self.pressing.rows(), &mut at_place);
-                let weight = self.places[i].slip / s;
-                mu.iter_mut()
-                    .zip(&at_place)
-                    .for_each(|(mu, f)| *mu += weight * f);
-            }
-            for c in 0..cells {
-                let mu = surface.combine(mu[c], c, aerated, &self.bed);
-                contact.dissipated[c] *= mu / self.mu;
-            }
-        }
-        contact
-    }
-
-    /// The fresh debris of a loss in the cells of the grid, spread over the stroke \[m\], and the sum of what
-    /// leaves the contact at once. `aerated` are the aerated shares in the coordinates of both bodies.
-    fn supply(
-        &self,
-        third_body: &ThirdBody,
-        worn: &Worn,
-        loss: &Loss,
-        aerated: &[Vec<f64>; 2],
-    ) -> (Vec<f64>, f64) {
-        let mut supply = vec![0.0; self.pressing.cells()];
-        let (mut lost, s) = (0.0, self.slip_distance());
-        for b in 0..2 {
-            let yields = |c: usize| {
-                let starved = aerated[b].get(c).map_or(0.0, |s| {
-                    self.wear.bodies[b].starved_part(worn.depth[b][c], &self.coatings[b], *s)
-                });
-                third_body.yields(starved)
-            };
-            let cells = loss.depth[b].iter().enumerate();
-            let [fresh, at_once]: [Vec<f64>; 2] =
-                [0, 1].map(|k| cells.clone().map(|(c, w)| w * yields(c)[k]).collect());
-            lost += at_once.iter().sum::<f64>();
-            for (i, place) in self.places.iter().enumerate() {
-                let weighted: Vec<f64> = fresh.iter().map(|w| w * place.slip / s).collect();
-                self.shifts[i][b].read(&weighted, self.pressing.rows(), &mut supply);
-            }
-        }
-        (supply, lost)
-    }
-
-    /// A field of the grid in the coordinates of each body: for each cell the mean over all that passes it,
-    /// weighted with the pressure; `outside` where nothing passes.
-    fn carry(&self, field: &[f64], outside: f64) -> [Vec<f64>; 2] {
-        if field.is_empty() {
-            return [vec![], vec![]];
-        }
-        let largest = self.p.iter().flatten().fold(0.0, |m: f64, p| m.max(*p));
-        let least = 1e-9 * largest + f64::MIN_POSITIVE;
-        let weights: Vec<Vec<f64>> = self
-            .p
-            .iter()
-            .map(|p| p.iter().map(|p| p + least).collect())
-            .collect();
-        let products: Vec<Vec<f64>> = weights
-            .iter()
-            .map(|p| p.iter().zip(field).map(|(p, f)| p * f).collect())
-            .collect();
-        let (sums, weights) = (self.integrate(&products), self.integrate(&weights));
-        [0, 1].map(|b| {
-            let cells = sums[b].iter().zip(&weights[b]);
-            let mean =
-                |(sum, weight): (&f64, &f64)| if *weight > 0.0 { sum / weight } else { outside };
-            cells.map(mean).collect()
-        })
-    }
-
-    /// Solves the pressures at all places at given rates, round by round, accelerated, until they settle.
-    fn iterate(&mut self, worn: &Worn, n: f64, rates: &Rates) -> Result<(), Error> {
+        rates: &Rates,
+        least_change: f64,
+    ) -> Result<(), Error> {
         let mut momentum = 1.0_f64;
         let (mut around, mut last) = (self.p.clone(), self.p.clone());
         let mut buffers = Buffers::new(self.pressing.cells());
@@ -465,7 +272,7 @@ impl Sliding {
                     turned -= self.places[i].slip * step * (p - last[i][c]);
                 }
             }
-            if change <= LEAST_CHANGE * LEAST_CHANGE * size || self.places.len() == 1 {
+            if change <= least_change * least_change * size || self.places.len() == 1 {
                 break;
             }
             let next_momentum = 0.5 * (1.0 + (1.0 + 4.0 * momentum * momentum).sqrt());
@@ -530,16 +337,6 @@ impl Sliding {
             .unwrap_or(0)
     }
 
-    /// Energy dissipated in a cycle with the present pressures \[J\].
-    pub(crate) fn dissipated_per_cycle(&self) -> f64 {
-        if let Some(surface) = &self.surface {
-            let ways = &self.integrate(&self.p)[surface.body];
-            let products = ways.iter().zip(&self.mu_of_cells).map(|(way, mu)| way * mu);
-            return products.sum::<f64>() * (self.mu() / self.mu) * self.pressing.cell_area();
-        }
-        self.mu() * self.slid_force() * self.pressing.cell_area()
-    }
-
     /// Sum over places and cells of pressure times slip in a cycle \[Pa m\].
     fn slid_force(&self) -> f64 {
         let slid = |i: usize| self.places[i].slip * self.p[i].iter().sum::<f64>();
@@ -549,31 +346,6 @@ impl Sliding {
     /// Integral of the pressure over the slip in a cycle \[N m\].
     fn loading_per_cycle(&self) -> f64 {
         self.slid_force() * self.pressing.cell_area()
-    }
-
-    /// Mean coefficient of friction, weighted with the pressure.
-    pub(crate) fn mean_mu(&self) -> f64 {
-        let Some(surface) = &self.surface else {
-            return self.mu();
-        };
-        let ways = &self.integrate(&self.p)[surface.body];
-        let sum: f64 = ways
-            .iter()
-            .zip(&self.mu_of_cells)
-            .map(|(w, mu)| w * mu)
-            .sum();
-        let loading: f64 = ways.iter().sum();
-        self.mu() / self.mu
-            * if loading > 0.0 {
-                sum / loading
-            } else {
-                self.mu
-            }
-    }
-
-    /// Factor of the force in the corners of the stroke, whose coefficient is the one before any cycle.
-    pub(crate) fn force_factor(&self) -> f64 {
-        self.mean_mu() / self.mu
     }
 
     /// The coefficient of friction after the cycles so far, of a fresh surface.
@@ -593,8 +365,9 @@ impl Sliding {
                 .map(|(way, mu)| n * mu * way)
                 .collect(),
         });
-        let dissipated = match &self.surface {
-            Some(surface) => energy[surface.body].iter().sum::<f64>() * self.pressing.cell_area(),
+        let surface = self.surface.as_ref().map(|surface| surface.body);
+        let dissipated = match surface.or(self.law.as_ref().map(|law| law.body)) {
+            Some(body) => energy[body].iter().sum::<f64>() * self.pressing.cell_area(),
             None => n * self.dissipated_per_cycle(),
         };
         let slides = |p: &f64| {
@@ -653,6 +426,7 @@ impl Sliding {
         let aerated = self.carry(&fields.aerated, 1.0);
         let debris = self.carry(&fields.bed, 0.0);
         let protection = self.carry(&fields.protection, 1.0);
+        let of_law = self.mu_of_law(worn, fields, &ways)?;
         let mut mu = [vec![], vec![]];
         // The body whose layers count comes first: the other one rubs against what it exposes.
         let order = if self.surface.as_ref().is_some_and(|s| s.body == 1) {
@@ -669,7 +443,11 @@ impl Sliding {
                 .iter()
                 .map(|w| if *w > 0.0 { *w } else { s })
                 .collect();
-            let (level, of_cells) = (self.mu(), self.mu_in_jump(b, worn, fields, &mu));
+            let of_cells = match &of_law {
+                Some(of_law) => Some(of_law[b].clone()),
+                None => self.mu_in_jump(b, worn, fields, &mu),
+            };
+            let level = self.mu();
             let dissipated: Vec<f64> = match &of_cells {
                 None => pressure_times_slip.iter().map(|w| level * w).collect(),
                 Some(mu) => (pressure_times_slip.iter().zip(mu))
@@ -718,44 +496,6 @@ impl Sliding {
         })
     }
 
-    /// The coefficients of friction of body b in a jump: at its start for the body whose layers count,
-    /// for the other one those that the first body has on average in the jump.
-    fn mu_in_jump(
-        &self,
-        b: usize,
-        worn: &Worn,
-        fields: &ThirdFields,
-        known: &[Vec<f64>; 2],
-    ) -> Option<Vec<f64>> {
-        let surface = self.surface.as_ref()?;
-        if b != surface.body && surface.has_layers() {
-            return Some(self.carry_across(&known[surface.body], surface.body));
-        }
-        let factor = self.mu() / self.mu;
-        let mut mu = self.mu_of_body(surface, b, worn, fields);
-        for mu in &mut mu {
-            *mu *= factor;
-        }
-        Some(mu)
-    }
-
-    /// Factor of the energy of a cell by its layer, for the body whose layers count.
-    fn layer_factor<'a>(
-        &'a self,
-        b: usize,
-        worn: &'a Worn,
-        (aerated, bed): (&'a [f64], &'a [f64]),
-    ) -> Option<Box<LayerFactor<'a>>> {
-        let surface = self.surface.as_ref();
-        let surface = surface.filter(|s| s.body == b && s.has_layers())?;
-        let mu = move |c: usize, layer: usize| {
-            surface.combine(surface.mu_of_layer(layer), c, aerated, bed)
-        };
-        Some(Box::new(move |c, layer| {
-            mu(c, layer) / mu(c, surface.layer(worn.depth[b][c]))
-        }))
-    }
-
     /// The sum of fields of both bodies, shifted to the grid at a place.
     fn read(&self, fields: &[Vec<f64>; 2], i: usize, into: &mut [f64]) {
         into.fill(0.0);
@@ -795,26 +535,6 @@ struct Rates {
     aerated: [Vec<f64>; 2],
     /// Mean coefficient of friction of the cells; empty where it is uniform.
     mu: [Vec<f64>; 2],
-}
-
-/// The contact that the third body meets.
-struct Contact {
-    gap: Vec<f64>,
-    p: Vec<f64>,
-    dissipated: Vec<f64>,
-    slip: Vec<f64>,
-}
-
-impl Contact {
-    /// The fields that the third body needs, by reference.
-    fn meeting(&self) -> Meeting<'_> {
-        Meeting {
-            gap: &self.gap,
-            p: &self.p,
-            dissipated: &self.dissipated,
-            slip: &self.slip,
-        }
-    }
 }
 
 impl Rates {

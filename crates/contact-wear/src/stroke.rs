@@ -28,6 +28,14 @@ pub(crate) enum Frame {
 }
 
 impl Frame {
+    /// Index of the body that the grid is fixed to.
+    pub(crate) fn body(self) -> usize {
+        match self {
+            Self::Body1 => 0,
+            Self::Body2 => 1,
+        }
+    }
+
     /// The body on which the grid lies: body 1. If body 1 is straight along x and body 2 is not, the contact
     /// stays on body 2.
     pub(crate) fn new(scene: &Scene) -> Self {
@@ -181,9 +189,10 @@ fn check(scene: &Scene, first_branch: usize, rigid: bool) -> Result<(), Error> {
         Dependence::Cycles,
         Dependence::Surface,
     ];
-    if !friction.depends_only_on(&allowed_dependences[..if rigid { 3 } else { 1 }]) {
-        let allowed = "one coefficient mu where wear.cycling = \"sliding\", or, without a spring of the rig, one with a \
-                       history of cycles or of the exposed surface. wear.cycling = \"march\" takes all of them";
+    let own_law = rigid && friction.law.is_some();
+    if !own_law && !friction.depends_only_on(&allowed_dependences[..if rigid { 3 } else { 1 }]) {
+        let allowed = "one coefficient mu where wear.cycling = \"sliding\". Without a spring of the rig it may follow the \
+                       cycles, the exposed surface, or a law of your own. wear.cycling = \"march\" takes all of them";
         let value = if friction.law.is_some() {
             "a law of your own"
         } else {

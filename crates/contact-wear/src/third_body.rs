@@ -13,7 +13,9 @@
 //! evaluation, so that mass is conserved whatever residual is left.
 
 use contact_core::Error;
-use debris::{Lattice, NotConverged, Region, aerated_share, diffuse_air, spread_bed};
+use debris::{
+    Bed, Lattice, MASS_ACCURACY, NotConverged, Region, aerated_share, diffuse_air, spread_bed,
+};
 
 use super::air::Air;
 use super::debris_bed::DebrisBed;
@@ -24,10 +26,13 @@ use super::settings::{Jumps, Wear};
 /// Change of the worn depth and the bed in an evaluation that ends the fixed point (root mean
 /// squares): over the depth worn in the jump, or over the part of the worn depth that a jump may leave
 /// as an error.
-const AGREES_IN_JUMP: f64 = 3e-3;
+pub(crate) const AGREES_IN_JUMP: f64 = 3e-3;
 const AGREES_IN_ALL: f64 = 0.05;
 /// The part of the worn depth where jumps are given.
 const USUAL: f64 = 0.01;
+
+/// Part of the debris that the bed of an evaluation may lose. The last one is solved to [`MASS_ACCURACY`].
+const ROUGH: f64 = 1e-5;
 
 /// Oxygen and debris between the surfaces, in the cells of the grid.
 pub(crate) struct ThirdBody {
@@ -81,8 +86,24 @@ impl ThirdFields {
         }
     }
 
+    /// The fields a `part` of the way from these to the fields at the `end` of a jump.
+    pub(crate) fn towards(&self, end: &Self, part: f64) -> Self {
+        let mix = |start: &[f64], end: &[f64]| -> Vec<f64> {
+            let cells = start.iter().zip(end);
+            cells
+                .map(|(start, end)| start + part * (end - start))
+                .collect()
+        };
+        Self {
+            bed: mix(&self.bed, &end.bed),
+            aerated: mix(&self.aerated, &end.aerated),
+            oxygen: end.oxygen.clone(),
+            ..Self::default()
+        }
+    }
+
     /// The debris at the end of a jump.
-    pub(crate) fn to_debris(&self) -> Option<Debris> {
+    fn to_debris(&self) -> Option<Debris> {
         (!self.bed.is_empty()).then(|| Debris {
             bed: self.bed.clone(),
             ejected: self.ejected,
@@ -151,28 +172,59 @@ impl ThirdBody {
         let held = last.region.clone().filter(|_| last.holds_region);
         let region = held.unwrap_or_else(|| self.region(meeting));
         self.aerate(&region, meeting, &mut fields)?;
-        if let Some(settings) = &self.bed {
-            let transport: Vec<f64> = meeting
-                .slip
-                .iter()
-                .map(|slip| settings.kappa * (0.25 * slip).powi(2))
-                .collect();
-            let supply: Vec<f64> = worn
-                .bed
-                .iter()
-                .zip(supply)
-                .map(|(h, new)| h + new)
-                .collect();
-            let spread = spread_bed(&region, &transport, n, &supply, Some(&last.bed));
-            let spread = spread.map_err(|error| to_error(&error))?;
-            fields.bed = spread.height;
-            // The residual of conjugate gradients is below the accuracy of the mass.
-            fields.bed.iter_mut().for_each(|h| *h = h.max(0.0));
-            fields.ejected = spread.ejected + lost;
+        let jump = (n, supply, meeting.slip);
+        if let Some(bed) = self.spread(worn, &region, jump, (&last.bed, ROUGH))? {
+            fields.bed = bed.height;
+            fields.ejected = bed.ejected + lost;
         }
         fields.region = Some(region);
         self.protect(&mut fields);
         Ok(fields)
+    }
+
+    /// The debris at the end of a jump, from the fields that it has settled with: the bed solved to the accuracy
+    /// of its mass.
+    pub(crate) fn debris(
+        &self,
+        worn: &Worn,
+        slip: &[f64],
+        (n, supply, lost): (f64, &[f64], f64),
+        settled: &ThirdFields,
+    ) -> Result<Option<Debris>, Error> {
+        let Some(region) = &settled.region else {
+            return Ok(settled.to_debris());
+        };
+        let start = (&settled.bed[..], MASS_ACCURACY);
+        let bed = self.spread(worn, region, (n, supply, slip), start)?;
+        Ok(bed.map(|bed| Debris {
+            bed: bed.height,
+            ejected: bed.ejected + lost,
+        }))
+    }
+
+    /// The bed after n cycles with this supply and slip, from a guess, to an accuracy of its mass; `None` without a
+    /// bed.
+    fn spread(
+        &self,
+        worn: &Worn,
+        region: &Region,
+        (n, supply, slip): (f64, &[f64], &[f64]),
+        (guess, accuracy): (&[f64], f64),
+    ) -> Result<Option<Bed>, Error> {
+        let Some(settings) = &self.bed else {
+            return Ok(None);
+        };
+        let transport = slip
+            .iter()
+            .map(|slip| settings.kappa * (0.25 * slip).powi(2));
+        let transport: Vec<f64> = transport.collect();
+        let supply = worn.bed.iter().zip(supply).map(|(h, new)| h + new);
+        let supply: Vec<f64> = supply.collect();
+        let bed = spread_bed(region, &transport, n, &supply, Some(guess), accuracy);
+        let mut bed = bed.map_err(|error| to_error(&error))?;
+        // The residual of conjugate gradients is below the accuracy of the mass.
+        bed.height.iter_mut().for_each(|h| *h = h.max(0.0));
+        Ok(Some(bed))
     }
 
     /// The closed region: pressed, or with a gap below the limit.

@@ -25,7 +25,7 @@ mod solve;
 mod tridiagonal;
 
 pub use air::{ACCURACY, diffuse_air};
-pub use bed::{Bed, spread_bed};
+pub use bed::{Bed, MASS_ACCURACY, spread_bed};
 pub use conjugate_gradients::NotConverged;
 pub use region::{Lattice, Region};
 pub use share::aerated_share;

@@ -77,7 +77,7 @@ impl UserFriction {
     }
 
     /// Writes the coefficients of cells, `nominal` where the pressure is zero.
-    pub(crate) fn coefficients(
+    pub fn coefficients(
         &self,
         cells: &CellHistory<'_>,
         nominal: f64,

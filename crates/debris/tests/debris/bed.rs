@@ -1,6 +1,6 @@
 //! Beds of debris, and their mass.
 
-use debris::{Bed, Region, spread_bed};
+use debris::{Bed, MASS_ACCURACY, Region, spread_bed};
 
 use crate::rows::{Half, Strip, near, row};
 
@@ -20,7 +20,7 @@ fn bed_after(region: &Region, K: &[f64], source: &[f64], cycles: f64, jumps: usi
                 .zip(source)
                 .map(|(h, q)| h + n * q)
                 .collect();
-            let next = spread_bed(region, K, n, &supply, Some(&bed.height)).unwrap();
+            let next = spread_bed(region, K, n, &supply, Some(&bed.height), MASS_ACCURACY).unwrap();
             let (before, after) = (supply.iter().sum::<f64>(), next.height.iter().sum::<f64>());
             assert!((before - after - next.ejected).abs() <= 1e-9 * before);
             bed = Bed {
@@ -111,7 +111,7 @@ fn a_bed_in_a_square_settles_as_a_membrane() {
     let inside = |value: f64| half.map(|x, y| if x.abs() < a && y < a { value } else { 0.0 });
     // One long jump: the limit of endless cycles.
     let n = 1e12;
-    let bed = spread_bed(&region, &inside(K), n, &inside(n * q), None).unwrap();
+    let bed = spread_bed(&region, &inside(K), n, &inside(n * q), None, MASS_ACCURACY).unwrap();
     near(
         half.log_at(&bed.height, 0.0, 0.0),
         square.output("h_centre"),
@@ -144,7 +144,7 @@ fn debris_does_not_pass_a_stick_zone() {
         })
     };
     let n = 1e12;
-    let bed = spread_bed(&region, &slips(K), n, &slips(n * q), None).unwrap();
+    let bed = spread_bed(&region, &slips(K), n, &slips(n * q), None, MASS_ACCURACY).unwrap();
     let at = |x: f64| line.interpolate(&bed.height, x);
     near(
         at(c + 0.5 * line.lattice.dx),
@@ -174,7 +174,7 @@ fn a_bed_that_protects_lets_the_middle_of_a_pad_wear_less() {
     let (mut low, mut high) = (0.0, alpha * energy * W / (2.0 * b));
     let n = 1e12;
     let steady = |v: f64| {
-        spread_bed(&region, &inside(K), n, &inside(n * v), None)
+        spread_bed(&region, &inside(K), n, &inside(n * v), None, MASS_ACCURACY)
             .unwrap()
             .height
     };
@@ -214,7 +214,7 @@ fn debris_of_cells_that_open_leaves() {
         let supply: Vec<f64> = level.iter().map(|_| number()).collect();
         let K: Vec<f64> = level.iter().map(|_| (number() - 0.3).max(0.0)).collect();
         let region = Region::from_levels(half.lattice, &level);
-        let bed = spread_bed(&region, &K, 10.0 * number(), &supply, None).unwrap();
+        let bed = spread_bed(&region, &K, 10.0 * number(), &supply, None, MASS_ACCURACY).unwrap();
         let sum = |f: &[f64]| f.iter().sum::<f64>();
         near(sum(&bed.height) + bed.ejected, sum(&supply), 1e-9, "mass");
         assert!(bed.height.iter().zip(&level).all(|(h, l)| if *l > 0.0 {
