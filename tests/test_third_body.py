@@ -203,6 +203,86 @@ def test_a_law_of_your_own_sees_the_exposed_surface() -> None:
     assert depth[1] == pytest.approx(depth[0], rel=0.05)
 
 
+@pytest.mark.solves
+def test_a_law_of_your_own_in_sliding_agrees_with_the_laws_that_are_there() -> None:
+    """Layers, bed and oxygen by a function wear as by their numbers, a constant as the number."""
+
+    def of_layers(x: Any, y: Any, p: Any, slip: Any, dissipated: Any, *, layer2: Any) -> Any:
+        return np.where(layer2 > 0, 0.7, 0.15)
+
+    def of_third_body(
+        x: Any, y: Any, p: Any, slip: Any, dissipated: Any, *, bed: Any, aerated: Any
+    ) -> Any:
+        bare = 0.9 + (0.6 - 0.9) * aerated
+        return 0.4 + (bare - 0.4) * np.exp(-bed / 2e-6)
+
+    sliding = {"cycling": "sliding", "jumps": 12}
+    pairs = [
+        (wear_film, film(), fret.Friction(0.15, law=of_layers), sliding),
+        (
+            lambda scene, **changes: fret.wear.solve(scene, progress=False, **settings(**changes)),
+            cylinder(48).replace(friction=fret.Friction(0.6, starved=0.9, bed=(0.4, 2e-6))),
+            fret.Friction(0.6, law=of_third_body),
+            {"cycling": "sliding"},
+        ),
+        (
+            lambda scene, **changes: fret.wear.solve(scene, progress=False, **settings(**changes)),
+            cylinder(48),
+            fret.Friction(0.6, law=lambda x, y, p, slip, dissipated: 0.6 + 0 * p),
+            {"cycling": "sliding"},
+        ),
+    ]
+    within = [2e-2, 1e-2, 1e-9]
+    for (run, scene, law, options), tolerance in zip(pairs, within, strict=True):
+        there = run(scene, **options)
+        result = run(scene.replace(friction=law), **options)
+        for name in ("depth2", "dissipated"):
+            values = [float(worn.dataset[name][-1]) for worn in (result, there)]
+            assert values[0] == pytest.approx(values[1], rel=tolerance), name
+        # The mean friction of single jumps scatters by the cells at the border of a layer.
+        scatter = sum(float(worn.mu_error[-1] * worn.mu[-1]) for worn in (result, there))
+        assert abs(float(result.mu[-1] - there.mu[-1])) <= scatter + tolerance
+        # Energy of the cells is energy of the contact, at each body.
+        dx = result.scene.grid.dx
+        for energy in (result.energy1, result.energy2):
+            total = float(energy[-1].sum() * dx)
+            assert total == pytest.approx(float(result.dissipated[-1]), rel=1e-6)
+
+
+@pytest.mark.solves
+def test_a_law_of_your_own_in_sliding_is_refused_on_the_spring_of_a_rig_alone() -> None:
+    law = fret.Friction(0.6, law=lambda x, y, p, slip, dissipated: np.full_like(p, np.nan))
+    with pytest.raises(ValueError, match=r"friction\.law"):
+        fret.wear.solve(
+            cylinder(48).replace(friction=law), progress=False, **settings(cycling="sliding")
+        )
+    path = cylinder().path.replace(rig_stiffness=1e9)
+    on_rig = cylinder(48).replace(friction=law, path=path)
+    with pytest.raises(ValueError, match=r"friction.*march"):
+        fret.wear.solve(on_rig, progress=False, **settings(cycling="sliding"))
+
+
+@pytest.mark.solves
+@pytest.mark.parametrize("air", [None, AIR.replace(distance=1e-4)])
+def test_a_third_body_that_changes_nothing_leaves_the_run_as_it_is(air: Any) -> None:
+    """Oxygen with equal coefficients, and a bed that leaves at once, wear as a run without."""
+    law = LAW.replace(starved=LAW.alpha)
+    plain = {"cycles": 500, "body1": law, "body2": law, "jumps": 4, "cycling": "sliding"}
+    bare = {**plain, "body1": fret.wear.DissipatedEnergy(LAW.alpha)}
+    bare["body2"] = bare["body1"]
+    without = fret.wear.solve(cylinder(48), progress=False, **bare)
+    # A law with `starved` takes the same steps where no oxygen is modelled: the same bits.
+    same = fret.wear.solve(cylinder(48), progress=False, **plain)
+    np.testing.assert_array_equal(same.worn2, without.worn2)
+    np.testing.assert_array_equal(same.p, without.p)
+    third = {"bed": fret.wear.DebrisBed(kappa=1e12), "frequency": 5.0, "air": air}
+    third = {key: value for key, value in third.items() if value is not None}
+    worn = fret.wear.solve(cylinder(48), progress=False, **{**plain, **third})
+    assert float(worn.debris[-1]) < 1e-6 * float(worn.ejected[-1])
+    deepest = float(without.worn2[-1].max())
+    np.testing.assert_allclose(worn.worn2, without.worn2, atol=5e-3 * deepest)
+
+
 @pytest.mark.parametrize(
     ("friction", "match"),
     [
