@@ -46,6 +46,20 @@ def test_a_law_of_pressure_slides_under_the_sum_of_its_coefficient_times_the_pre
     np.testing.assert_allclose(q[p > 0], MU * p[p > 0] ** 2 / 1e9, rtol=2e-3)
 
 
+def slides(to: float) -> fret.LoadPath:
+    path = fret.LoadPath.start().normal(W, increments=1)
+    return path.displace(delta_x=to).displace(delta_x=-to).displace(delta_x=to)
+
+
+def test_a_law_of_pressure_dissipates_in_gross_slip_what_it_does_under_hertz() -> None:
+    path = slides(2e-5)
+    once = {"cycles": 1, "jumps": 1, "body2": fret.wear.Archard(1e-20), "cycling": "sliding"}
+    result = worn(scene(by_pressure, path), **once)
+    mu = 0.75 * MU * scene(by_pressure, path).hertz.p_H / 1e9
+    assert float(result.mu[-1]) == pytest.approx(mu, rel=5e-3)
+    assert float(result.dissipated_per_cycle[-1]) == pytest.approx(4 * 2e-5 * mu * W, rel=5e-3)
+
+
 def test_a_law_of_slip_gives_what_the_same_table_gives() -> None:
     table = fret.Friction(MU, history=(fret.History.SLIP, [(0.0, 1.0), (1e-6, 0.8)]))
     by_table = fret.solve(scene(softening).replace(friction=table), progress=False)
@@ -115,8 +129,9 @@ def test_a_law_is_a_function_and_alone() -> None:
         fret.Friction(MU, law=softening, kinetic=0.2)
     with pytest.raises(TypeError, match=r"Friction\(0.3, law=function\)"):
         sphere_on_flat().replace(friction=softening)
+    path = slides(2e-5).replace(rig_stiffness=1e9)
     with pytest.raises(ValueError, match=r"a law of your own.*march"):
-        worn(scene(softening), cycling="sliding")
+        worn(scene(softening, path), cycling="sliding", cycles=10)
 
 
 def test_a_law_is_kept_by_copies_and_only_named_by_files(tmp_path: Path) -> None:

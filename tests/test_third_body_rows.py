@@ -38,14 +38,18 @@ def wear(scene: fret.Scene, **settings: Any) -> fret.wear.WearResult:
     return fret.wear.solve(scene, progress=False, **settings)
 
 
-def test_a_worn_strip_recedes_evenly_with_its_core() -> None:
-    row = ROWS["strip_pad"]
+@pytest.mark.parametrize(("name", "n"), [("strip_pad", 640), ("disc_pad", 512)])
+def test_a_worn_pad_recedes_evenly_with_its_core(name: str, n: int) -> None:
+    row = ROWS[name]
     get, exact = row["input"], row["output"]
-    b = get["b"]
-    grid = fret.Grid.strip(extent=2.4 * b, n=640)
-    x = np.arange(-319.5, 320.0) * grid.dx
+    b, is_strip = get["b"], name == "strip_pad"
+    if is_strip:
+        grid = fret.Grid.strip(extent=2.4 * b, n=n)
+    else:
+        grid = fret.Grid.centred(width=2.4 * b, n=n)
+    x = (np.arange(n) - 0.5 * (n - 1)) * grid.dx
     # A map has two lines at least.
-    inside = np.repeat(abs(x)[:, None] < b, 2, axis=1)
+    inside = np.repeat(abs(x)[:, None] < b, 2, axis=1) if is_strip else np.hypot(x, x[:, None]) < b
     pad = fret.SurfaceMap(np.where(inside, 0.0, -1e-3), spacing=(grid.dx, grid.dy))
     scene = fret.Scene(
         body1=fret.Body(fret.Elastic(E=1e12, nu=0.3), shape=pad),
@@ -70,11 +74,13 @@ def test_a_worn_strip_recedes_evenly_with_its_core() -> None:
         frequency=get["f"] * times,
         jumps=6,
     )
-    starved = np.where(inside[:, 0], 1 - np.asarray(worn.aerated[-1, :, 0]), 0.0)
-    core = 0.5 * starved.sum() * grid.dx
+    cells = inside[:, :1] if is_strip else inside
+    starved = float(np.where(cells, 1 - np.asarray(worn.aerated[-1]), 0.0).sum())
+    core = 0.5 * starved * grid.dx if is_strip else math.sqrt(starved / math.pi) * grid.dx
     assert core == pytest.approx(exact["core"], rel=WITHIN)
     lost, cycles = worn.volume1.values, worn.cycles.values
-    rate = (lost[-1] - lost[-2]) / (cycles[-1] - cycles[-2]) / (2 * b)
+    area = 2 * b if is_strip else math.pi * b**2
+    rate = (lost[-1] - lost[-2]) / (cycles[-1] - cycles[-2]) / area
     assert rate == pytest.approx(exact["recession"], rel=WITHIN)
 
 
