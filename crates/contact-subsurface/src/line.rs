@@ -29,6 +29,11 @@ const ALIGNED: f64 = 1e-3;
 /// value of a shear along one line, at most: then what is largest lies in the plane of the shear.
 const ROUND: f64 = 0.8;
 const ONE_WAY: f64 = 0.1;
+/// Sine of the angle to an axis of the grid below which the section of a contact of several spots runs
+/// along that axis. Such a contact has no plane of symmetry that a section would have to follow, and a
+/// section along an axis is computed by transforms. A shear in all directions, as of a rough surface
+/// that is pressed alone, gives no direction either.
+const SCATTERED: f64 = 0.1;
 /// Sine of the angle between a shear and a stress beside the contact that does not turn it.
 const IN_LINE: f64 = 0.05;
 
@@ -52,15 +57,24 @@ impl Line {
                 *sum += one;
             }
         }
-        let azimuth = principal_azimuth(shear).map(|azimuth| largest.snap_azimuth(azimuth));
+        let [xx, xy, yy] = shear;
+        let (mean, half) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
+        let is_along_one_line = mean - half <= ONE_WAY * (mean + half);
+        let is_rough = largest.spots.len() > 1;
+        let principal = principal_azimuth(shear);
+        let azimuth = principal
+            .filter(|_| is_along_one_line || !is_rough)
+            .map(|azimuth| match azimuth.sin_cos() {
+                (sin, _) if is_rough && sin.abs() < SCATTERED => 0.0,
+                (_, cos) if is_rough && cos.abs() < SCATTERED => std::f64::consts::FRAC_PI_2,
+                _ => largest.snap_azimuth(azimuth),
+            });
         let main = Self::through(largest.centre, azimuth.unwrap_or(0.0));
         if largest.is_flat() {
             return vec![main];
         }
         let (a, b, _) = largest.half_widths();
-        let [xx, xy, yy] = shear;
-        let (mean, half) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
-        let one_way = azimuth.is_none() || mean - half <= ONE_WAY * (mean + half);
+        let one_way = principal.is_none() || is_along_one_line;
         let in_line = |direction: &f64| (direction - main.azimuth()).sin().abs() < IN_LINE;
         let in_line = beside.iter().all(in_line);
         if b >= ROUND * a && one_way && in_line {
@@ -220,6 +234,45 @@ impl Line {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The section of two spots of pressure with shear in a direction \[rad\], or in all directions.
+    fn section_of_spots(centres: &[f64], azimuth: Option<f64>) -> Line {
+        let grid = Grid::from_spacing((40, 40), (1.0, 1.0)).expect("a grid");
+        let p = grid.map(|x, y| {
+            let near = centres.iter().any(|c| (x - c).hypot(y - 0.3 * c) < 4.2);
+            f64::from(u8::from(near))
+        });
+        let turned = |x: f64, y: f64| azimuth.unwrap_or(0.1 + if x * y > 0.0 { 0.0 } else { 1.2 });
+        let cells = grid.map(turned);
+        let q_x = ndarray::Zip::from(&p)
+            .and(&cells)
+            .map_collect(|p, a| 0.1 * p * a.cos());
+        let q_y = ndarray::Zip::from(&p)
+            .and(&cells)
+            .map_collect(|p, a| 0.1 * p * a.sin());
+        let tractions = contact_core::convolution::Tractions {
+            p: p.as_slice(),
+            q_x: q_x.as_slice(),
+            q_y: q_y.as_slice(),
+        };
+        let outline = Outline::new(&grid, &tractions).expect("a contact");
+        Line::for_outlines(&[&outline], &[])[0]
+    }
+
+    #[test]
+    fn the_section_of_several_spots_runs_along_a_near_axis() {
+        let along_x = |line: Line| matches!(line, Line::AlongX(_));
+        let spots = [-9.0, 9.0];
+        assert!(along_x(section_of_spots(&spots, Some(0.08))));
+        assert!(matches!(
+            section_of_spots(&spots, Some(1.53)),
+            Line::AlongY(_)
+        ));
+        assert!(along_x(section_of_spots(&spots, None)));
+        // A shear that is far from both axes keeps its direction, and so does the shear of a single spot.
+        assert!(!along_x(section_of_spots(&spots, Some(0.7))));
+        assert!(!along_x(section_of_spots(&[0.0], Some(0.2))));
+    }
 
     #[test]
     fn a_line_finds_its_own_places() {
