@@ -195,9 +195,7 @@ def pressed() -> fret.Scene:
     )
 
 
-def measured(
-    scene: fret.Scene, shift: float, rig: float, noise: float, folder: Path | None = None
-) -> fret.fit.Loops:
+def measured(scene: fret.Scene, shift: float, rig: float, noise: float) -> fret.fit.Loops:
     """Two cycles between two shifts of the contact behind a rig, with noise of the force."""
     path = fret.LoadPath.start().normal(10.0).cycles(1, delta_x=shift, increments=20)
     d = fret.solve(scene, path, progress=False).dataset
@@ -206,6 +204,17 @@ def measured(
     delta, force = (np.tile(d[name].values[kept], 2) for name in ("delta_x", "T_x"))
     scatter = noise * np.random.default_rng(0).normal(size=force.size)
     return fret.fit.Loops.from_arrays(delta + force / rig, force + scatter)
+
+
+def test_a_column_is_named_by_its_head(tmp_path: Path) -> None:
+    shift = np.sin(np.linspace(0.0, 9.0, 90))
+    frame = pd.DataFrame({"s [um]": shift, "F [N]": 3.0 * shift, "x [um]": shift + 1.0})
+    frame.to_csv(tmp_path / "loop.csv", index=False)
+    heads, names = (
+        fret.fit.read_loops(tmp_path / "loop.csv", delta=delta, T=T)
+        for delta, T in (("s [um]", "F [N]"), ("s", "F"))
+    )
+    assert heads == names
 
 
 def test_a_loop_alone_gives_friction_and_rig(pressed: fret.Scene) -> None:

@@ -74,6 +74,7 @@ def test_every_number_takes_a_text_with_its_unit_or_says_what_to_write(
 
 def measured_by_type(call: Any, key: str) -> tuple[str, str] | None:
     """Quantity and unit of a parameter by its type: its name may have no row."""
+    call = getattr(call, "__func__", call)
     if isinstance(call, type) and dataclasses.is_dataclass(call):
         of_part = inspect.unwrap(call.__init__)
         rules = Signature(of_part, call).rules

@@ -125,10 +125,14 @@ class RecordColumns(ABC):
         return self.names[index].rpartition("/")[2]
 
     def index(self, name: str) -> int:
-        """Return the index of a column by its name, with or without its group."""
+        """Return the index of a column by its name, with or without its group or its unit."""
         if name in self.names:
             return self.names.index(name)
-        matching = [n for n in range(len(self.names)) if self.short(n) == name]
+        matching = [
+            n
+            for n, unit in enumerate(self.units)
+            if name in (self.short(n), f"{self.names[n]} [{unit}]")
+        ]
         if len(matching) == 1:
             return matching[0]
         listed = ", ".join(self.names[n] for n in matching) or ", ".join(self.names)
