@@ -89,6 +89,18 @@ def test_a_run_keeps_its_mass_and_goes_on_with_the_same_bits(tmp_path: Path) -> 
 
 
 @pytest.mark.solves
+@pytest.mark.parametrize(("frequency", "maxima"), [(0.1, [0.0]), (2.0, [-8.125e-4, 8.125e-4])])
+def test_a_scar_is_a_u_with_oxygen_and_a_w_without(frequency: float, maxima: list[float]) -> None:
+    """The maxima of the W lie as in the row titanium_air_2Hz of a dense code."""
+    long = settings(cycles=5000, jumps=10, frequency=frequency, cycling="sliding")
+    worn = fret.wear.solve(cylinder(96), progress=False, **long)
+    depth = np.asarray((worn.worn1 + worn.worn2)[-1, :, 0])
+    is_top = (depth[1:-1] > depth[:-2]) & (depth[1:-1] >= depth[2:])
+    x = np.asarray(worn.x)[1:-1][is_top & (depth[1:-1] > 0.5 * depth.max())]
+    np.testing.assert_allclose(x, maxima, atol=worn.scene.grid.dx)
+
+
+@pytest.mark.solves
 def test_more_without_oxygen_than_in_air_is_doubted() -> None:
     law = LAW.replace(starved=1e-12)
     short = settings(body1=law, cycles=10, jumps=1)
