@@ -3,7 +3,7 @@
 
 use contact_core::Error;
 use contact_core::scene::Body;
-use fracture::{Crack, Faces, Intensity, Path};
+use fracture::{Crack, Faces, Intensity, Path, PlaneStress};
 
 use super::along::{Along, Line, Stencil};
 use super::prepared::Cells;
@@ -92,34 +92,123 @@ pub(super) fn on_line(
     };
     let (of_cells, of_mouth) = (changes(&stressed.by_cells), changes(&stressed.by_mouth));
     // K is linear in the stress where faces may pass through each other.
-    let largest = |lines: &[Line], stencils: &[Vec<Stencil>], state| -> Result<f64, Error> {
-        let mut largest = 0.0_f64;
-        for (line, stencils) in lines.iter().zip(stencils) {
+    let linear_changes = |line: &Line, stencils: &[Stencil]| -> Result<Vec<f64>, Error> {
+        let of_state = |state| {
             let change = crack.intensity(&line.stress(state, stencils));
-            let change = change.map_err(to_core_error)?;
-            largest = largest.max(change.K_I.hypot(change.K_II));
-        }
-        Ok(largest)
+            change.map(|k| k.K_I.hypot(k.K_II)).map_err(to_core_error)
+        };
+        (0..line.states()).map(of_state).collect()
     };
-    let mut faces = Faces::new(crack, friction).map_err(to_core_error)?;
+    let stress: Vec<_> = (0..line.states())
+        .map(|state| line.stress(state, &stencils))
+        .collect();
+    let history = follow_faces(crack, friction, &stress).map_err(to_core_error)?;
+    let mut cells = vec![0.0; stress.len()];
+    let mut touching = cells.clone();
+    for (line, stencils) in stressed.by_cells.iter().zip(&of_cells) {
+        let changes = linear_changes(line, stencils)?;
+        let carried = carried_changes(
+            crack,
+            friction,
+            (&stress, &history),
+            line,
+            stencils,
+            &changes,
+        );
+        raise(&mut cells, &changes);
+        raise(&mut touching, &carried);
+    }
+    let mut mouth = vec![0.0; stress.len()];
+    for (line, stencils) in stressed.by_mouth.iter().zip(&of_mouth) {
+        let changes = linear_changes(line, stencils)?;
+        raise(
+            &mut mouth,
+            &carried_changes(
+                crack,
+                friction,
+                (&stress, &history),
+                line,
+                stencils,
+                &changes,
+            ),
+        );
+        raise(&mut mouth, &changes);
+    }
     let mut over = OverCycle {
         faces: Vec::new(),
         linear: Vec::new(),
         open: Vec::new(),
     };
-    for state in 0..line.states() {
-        let stress = line.stress(state, &stencils);
-        let mut linear = crack.intensity(&stress).map_err(to_core_error)?;
-        linear.error += largest(&stressed.by_cells, &of_cells, state)?;
+    for (state, faces) in history.iter().enumerate() {
+        let mut linear = crack.intensity(&stress[state]).map_err(to_core_error)?;
+        linear.error += cells[state];
         linear.error += (layers + SAMPLES) * linear.K_I.hypot(linear.K_II);
-        faces = faces.next(&stress).map_err(to_core_error)?;
         let mut k = faces.intensity;
-        k.error = k.error.max(linear.error) + largest(&stressed.by_mouth, &of_mouth, state)?;
+        k.error = k.error.max(linear.error).max(touching[state]) + mouth[state];
         over.open.push(faces.open_share().map_err(to_core_error)?);
         over.faces.push(k);
         over.linear.push(linear);
     }
     Ok(over)
+}
+
+/// The faces of a crack under one stress after the other.
+fn follow_faces(
+    crack: &Crack,
+    friction: f64,
+    stress: &[Vec<PlaneStress>],
+) -> Result<Vec<Faces>, fracture::Error> {
+    let mut history: Vec<Faces> = Vec::with_capacity(stress.len());
+    let start = Faces::new(crack, friction)?;
+    for stress in stress {
+        history.push(history.last().unwrap_or(&start).next(stress)?);
+    }
+    Ok(history)
+}
+
+/// The change of K_II of each state by a change of the stress in all states, where faces touch with friction.
+/// They keep the slip of earlier states, and its error, as long as they stick: an increment with a small
+/// change of its own may have the change of an earlier one. Where the changed stress leaves the faces without
+/// a state, it is the largest of the changes `linear` so far.
+fn carried_changes(
+    crack: &Crack,
+    friction: f64,
+    (stress, history): (&[Vec<PlaneStress>], &[Faces]),
+    line: &Line,
+    stencils: &[Stencil],
+    linear: &[f64],
+) -> Vec<f64> {
+    let is_open = |faces: &Faces| faces.opening.open.iter().all(|open| *open);
+    if friction == 0.0 || history.iter().all(is_open) {
+        return vec![0.0; stress.len()];
+    }
+    let add = |(state, stress): (usize, &Vec<PlaneStress>)| -> Vec<PlaneStress> {
+        let changes = line.stress(state, stencils);
+        let pairs = stress.iter().zip(changes);
+        pairs
+            .map(|(s, d)| std::array::from_fn(|k| s[k] + d[k]))
+            .collect()
+    };
+    let changed: Vec<_> = stress.iter().enumerate().map(add).collect();
+    if let Ok(changed) = follow_faces(crack, friction, &changed) {
+        let pairs = changed.iter().zip(history);
+        pairs
+            .map(|(a, b)| (a.intensity.K_II - b.intensity.K_II).abs())
+            .collect()
+    } else {
+        let so_far = linear.iter().scan(0.0, |most: &mut f64, change| {
+            *most = most.max(*change);
+            Some(*most)
+        });
+        so_far.collect()
+    }
+}
+
+/// Raises each number to the other one where that is larger.
+fn raise(numbers: &mut [f64], others: &[f64]) {
+    for (number, other) in numbers.iter_mut().zip(others) {
+        *number = number.max(*other);
+    }
 }
 
 /// The largest range of K_I over the states, of cracks along a line. With a coefficient of `friction`, faces

@@ -216,3 +216,33 @@ fn faces_that_do_not_settle_name_their_kink() {
     let text = error.to_string();
     assert!(text.contains("kinks of up to 57 degrees"), "{text}");
 }
+
+/// Straight cracks up to 60 degrees from the normal, at a rim and beside it, over a cycle of partial slip with
+/// bulk stress: every instant has a state. Open and closed parts alternate in the wedge at the mouth.
+#[test]
+fn inclined_straight_cracks_find_a_state() {
+    for (degrees, mouth, length) in [
+        (60.0_f64, -1.02, 0.1),
+        (60.0, -1.02, 0.4),
+        (45.0, -1.0, 0.03),
+        (-60.0, -1.0, 0.1),
+    ] {
+        let path = Path::straight(mouth, length, degrees.to_radians());
+        let crack = Crack::with_step(path, 0.12).unwrap();
+        for friction in [0.0, 0.3, 0.7] {
+            let mut faces = Faces::new(&crack, friction).unwrap();
+            for step in 0..4 {
+                let phase = 0.55 * f64::from(step);
+                let contact = Fretting {
+                    pressure: 1.0,
+                    shear: 0.6 * phase.cos(),
+                    stick: (0.6, 0.1 * phase.sin()),
+                    bulk: phase.cos() * if step % 3 == 0 { 0.3 } else { 0.1 },
+                };
+                faces = faces
+                    .next(&contact.along(&crack.points()))
+                    .unwrap_or_else(|e| panic!("{degrees} {mouth} {length}, {friction}: {e}"));
+            }
+        }
+    }
+}
