@@ -81,3 +81,26 @@ def test_a_stress_that_jumps_along_a_crack() -> None:
     assert K["error"][0] < 5e-3 * abs(truth)
     assert crack.interfaces == [depth]
     assert "interfaces=[3e-5]" in repr(crack)
+
+
+def test_energies_along_a_coarser_path_are_those_of_the_grid() -> None:
+    """The last increment of a branch starts from interpolated displacements; its energy does not."""
+    ball, flat = fret.Elastic(E=210e9, nu=0.3), fret.Elastic(E=70e9, nu=0.2)
+    radius = fret.reference.hertz(R=0.01, bodies=(ball, flat), W=100.0).a
+    T = 0.7 * 0.69 * 100.0
+    loops = {}
+    for path_grid in (64, "same"):
+        scene = fret.Scene(
+            body1=fret.Body(ball, shape=fret.Sphere(R=0.01)),
+            body2=fret.Body(flat),
+            friction=0.69,
+            grid=fret.Grid.centred(width=2.6 * radius, n=128),
+            path=fret.LoadPath.start().normal(100.0).tangential([T, -T, T]),
+            settings=fret.Settings(path_grid=path_grid),
+        )
+        result = fret.solve(scene, progress=False)
+        loops[path_grid] = result.branches().dissipated.values[1:]
+        # The energies per area add up to the energies of the branches.
+        field = result.at(-1).dissipated_density.sum() * scene.grid.dx**2
+        assert float(field) == pytest.approx(result.dataset.dissipated.values.sum(), rel=1e-3)
+    assert loops[64] == pytest.approx(loops["same"], rel=1.5e-3)

@@ -14,7 +14,8 @@
 //!   which does not change at constant normal force; the pressure is scaled to the change of its
 //!   sum.
 //! - Slip zone: the one of the coarse grid, with the shear on the bound, q := mu p q_coarse/|q_coarse|.
-//! - Slip, its length and dissipated energy: linear interpolation, without cells out of contact.
+//! - Slip, its length and dissipated energy: linear interpolation, without cells out of contact; the energy
+//!   is scaled to the change of its sum.
 //!
 //! The increment that follows solves for the tractions. Only the displacements of sticking cells and
 //! the sums of slip and energy keep what was carried.
@@ -107,6 +108,8 @@ struct Change<'a> {
     contact: Vec<f64>,
     /// The tractions interpolated to the fine cells.
     within: Vec<f64>,
+    /// Fine cells in a coarse one.
+    fine_cells: f64,
 }
 
 impl<'a> Change<'a> {
@@ -138,6 +141,7 @@ impl<'a> Change<'a> {
             cubic,
             linear,
             contact,
+            fine_cells: (ratio * ratio) as f64,
         }
     }
 
@@ -178,7 +182,13 @@ impl<'a> Change<'a> {
         add(&mut carried.interface.u_z, &u_z);
         let length = self.interpolate_change(&now.slip_length, &then.slip_length, Parity::Even);
         add(&mut carried.slip_length, &length);
-        let dissipated = self.interpolate_change(&now.dissipated, &then.dissipated, Parity::Even);
+        let mut dissipated =
+            self.interpolate_change(&now.dissipated, &then.dissipated, Parity::Even);
+        let sum = total(&now.dissipated) - total(&then.dissipated);
+        let factor = self.fine_cells * sum / total(&dissipated);
+        if factor.is_finite() {
+            dissipated.iter_mut().for_each(|density| *density *= factor);
+        }
         add(&mut carried.dissipated, &dissipated);
     }
 

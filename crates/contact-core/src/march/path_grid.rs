@@ -20,7 +20,8 @@
 //! with both at the last increment (0) that was solved on both grids, so that it jumps by no more
 //! than the error of the coarse path where the fine grid takes over. The contact area is taken from
 //! the fine grid: at constant normal force the shear moves the rim by less than a coarse cell. The
-//! area of the stick zone is the same part of it as on the coarse grid. If the coarse grid does not
+//! area of the stick zone is the same part of it as on the coarse grid. Energies are those of the
+//! coarse grid wherever the fine one starts from a carried state. If the coarse grid does not
 //! converge the run continues without it, in a first indentation from its increments on the fine grid.
 
 use std::borrow::Cow;
@@ -85,6 +86,7 @@ impl March {
         let remembers = self.remembers(point);
         let solves = self.is_wanted(point) || (self.presses_anew(point) && !remembers);
         let was_carried = solves && !remembers && self.catch_up();
+        let carried = was_carried.then(|| self.state.dissipated.clone());
         let before = solves.then(|| self.state.along.clone());
         let on_coarse = match self.advance_on_path_grid() {
             Ok(increment) => increment,
@@ -119,7 +121,13 @@ impl March {
         match solved {
             Ok(increment) => {
                 along.then = along.now.clone();
-                along.rows = Some([increment, on_coarse]);
+                let increment = match carried {
+                    Some(carried) => self.with_energy(increment, &on_coarse, &carried),
+                    None => increment,
+                };
+                if let Some(along) = &mut self.state.along {
+                    along.rows = Some([increment, on_coarse]);
+                }
                 Ok(increment)
             }
             Err(error) => {
@@ -127,6 +135,27 @@ impl March {
                 Err(error)
             }
         }
+    }
+
+    /// The increment with the energies of the path grid, where it starts from a carried state whose energies per
+    /// area are `carried`.
+    ///
+    /// Its slip is the change from displacements that were interpolated, which slip a little more than
+    /// cells of the grid: the energy of the last increment of a branch is 2 to 5 % low. On the path grid it
+    /// follows from the increments before it.
+    fn with_energy(&mut self, row: Increment, on_coarse: &Increment, carried: &[f64]) -> Increment {
+        let state = &mut self.state;
+        let factor = on_coarse.energy.dissipated / row.energy.dissipated;
+        if factor.is_finite() && state.dissipated.len() == carried.len() {
+            for (now, before) in state.dissipated.iter_mut().zip(carried) {
+                *now = before + factor * (*now - before);
+            }
+        }
+        state.work += on_coarse.energy.work - row.energy.work;
+        let mut increment = row;
+        increment.energy = on_coarse.energy;
+        increment.residuals.energy = on_coarse.residuals.energy;
+        increment
     }
 
     /// Computes the end of an indentation on the grid of the scene from what the stick zone of the path grid
