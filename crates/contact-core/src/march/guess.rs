@@ -2,7 +2,6 @@
 
 use rayon::prelude::*;
 
-use super::domain::first_pressure;
 use super::setup::Setup;
 use crate::cells::{CHUNK, copy, length, set_fields, sweep};
 use crate::solvers::inner::scale_pressure;
@@ -16,7 +15,7 @@ pub(super) fn first_guess(setup: &Setup<'_>, extrapolates: bool) -> Interface {
     let (problem, state) = (setup.problem, setup.state);
     let mut guess = state.interface.clone();
     if state.loads.W <= 0.0 {
-        let p = first_pressure(problem, setup.kernel, setup.point);
+        let p = setup.first.under(problem, setup.kernel, setup.point);
         guess.p = setup.geometry.cut(problem.plan.mirror, &p);
     }
     match setup.goes_on {

@@ -36,6 +36,7 @@ pub(super) fn increment(
         problem,
         geometry,
         kernel: &domain.kernels.pair.zz,
+        first: &domain.first,
         state,
         roll,
         rolled: rolled.as_ref(),

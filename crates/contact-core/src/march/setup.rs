@@ -1,7 +1,7 @@
 //! Data of an increment, its buffers, and the solver of its equations.
 
 use super::State;
-use super::domain::Geometry;
+use super::domain::{FirstPressure, Geometry};
 use super::problem::{Drives, Problem};
 use super::rolled::{Roll, Rolled};
 use crate::error::Error;
@@ -65,6 +65,8 @@ pub(super) struct Setup<'a> {
     pub(super) geometry: &'a Geometry,
     /// C_zz on the whole grid \[m/Pa\].
     pub(super) kernel: &'a Quadrant,
+    /// The pressure from which bodies start that have not touched.
+    pub(super) first: &'a FirstPressure,
     /// The state after the last increment.
     pub(super) state: &'a State,
     pub(super) roll: Roll,

@@ -2,8 +2,7 @@
 
 use std::sync::PoisonError;
 
-use super::nested::first_pressure;
-use super::shape::{half_lengths, shape_for, shape_of};
+use super::shape::{half_lengths, pays, shape_for, shape_of};
 use super::{AROUND, Domain, embed};
 use crate::error::Error;
 use crate::march::State;
@@ -40,12 +39,15 @@ impl Domain {
         let touches = state.interface.p.iter().any(|&p| p > 0.0);
         let presses = point.loads.W > 0.0 || point.loads.given.delta_z.is_some();
         let [within, _] = growth(problem, state, point);
+        if touches {
+            self.first.clear();
+        }
         let half = if touches {
             let (nx, ny) = self.shape();
             half_lengths(&state.interface.p, mirror.rows(ny), (nx, ny))
         } else if presses {
             let (nx, ny) = shape_of(&problem.scene.grid);
-            let p = first_pressure(problem, &self.kernels.pair.zz, point);
+            let p = self.first.under(problem, &self.kernels.pair.zz, point);
             let half = half_lengths(&mirror.fold(&p), mirror.rows(ny), (nx, ny));
             let enters = !growing::steps(problem, state, point).is_empty();
             let beyond = match (enters, problem.scene.is_uneven()) {
@@ -133,7 +135,13 @@ impl Domain {
         let cells =
             |half: usize| 2 * ((half as f64 * rest.min(WINDOW_GROWTH)).round() as usize + margin);
         let wider = [cells(half[0]).max(now.0), cells(half[1]).max(now.1)];
-        self.move_into(problem, state, shape_for(whole, wider))
+        let shape = shape_for(whole, wider);
+        let shape = if pays(&problem.scene, shape) {
+            shape
+        } else {
+            shape_of(whole)
+        };
+        self.move_into(problem, state, shape)
     }
 
     /// Builds a window of another shape and moves the state into it; without a change if the run is

@@ -18,7 +18,7 @@ use std::sync::{Mutex, PoisonError};
 use ndarray::Array2;
 
 pub(super) use self::embed::state as embedded_state;
-pub(super) use self::nested::first_pressure;
+pub(super) use self::nested::FirstPressure;
 pub(super) use self::shape::half_lengths;
 use self::shape::{first, shape_of};
 use super::State;
@@ -72,6 +72,8 @@ pub(super) struct Domain {
     pub(super) window: Window,
     /// The whole grid, once it has been needed.
     pub(super) whole: Mutex<Option<Window>>,
+    /// The first pressure of a first contact, while it may be needed again.
+    pub(super) first: FirstPressure,
     /// Work done in windows that have been replaced.
     replaced: Convolutions,
     /// Work after which an increment has failed.
@@ -106,6 +108,7 @@ impl Domain {
             kernels,
             window,
             whole: Mutex::default(),
+            first: FirstPressure::default(),
             replaced: Convolutions::default(),
             limit: Convolutions::MAX,
         })

@@ -15,6 +15,7 @@
 //! first guess.
 
 use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use ndarray::Array2;
 
@@ -44,14 +45,40 @@ const ITERATIONS: usize = 40;
 /// Cells of a level between the contact of the level before and the border of its window.
 const MARGIN: usize = 6;
 
+/// The first pressure of the last load point for which it was computed: the window is laid out by it, and the
+/// increment starts from it, in every window that is tried.
+#[derive(Default)]
+pub(in crate::march) struct FirstPressure(Mutex<Option<(LoadPoint, Arc<Array2<f64>>)>>);
+
+impl FirstPressure {
+    /// Returns the first pressure under the loads of a point; `kernel` is C_zz on the whole grid.
+    pub(in crate::march) fn under(
+        &self,
+        problem: &Problem,
+        kernel: &Quadrant,
+        point: &LoadPoint,
+    ) -> Arc<Array2<f64>> {
+        let mut last = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((at, p)) = &*last
+            && at == point
+        {
+            return p.clone();
+        }
+        let p = Arc::new(first_pressure(problem, kernel, point));
+        *last = Some((*point, p.clone()));
+        p
+    }
+
+    /// Frees the memory, once the bodies touch.
+    pub(super) fn clear(&mut self) {
+        *self.0.get_mut().unwrap_or_else(PoisonError::into_inner) = None;
+    }
+}
+
 /// Initial pressure of bodies that have not touched, on the whole grid, up to a factor: from larger
 /// cells where the surfaces are uneven, else the pressure of a paraboloid; uniform without
 /// [`Methods::first_contact`](crate::plan::Methods::first_contact). `kernel` is C_zz on the whole grid.
-pub(in crate::march) fn first_pressure(
-    problem: &Problem,
-    kernel: &Quadrant,
-    point: &LoadPoint,
-) -> Array2<f64> {
+fn first_pressure(problem: &Problem, kernel: &Quadrant, point: &LoadPoint) -> Array2<f64> {
     let h_init = problem.scene.h_init();
     if !problem.plan.methods.first_contact {
         return Array2::ones(h_init.dim());
