@@ -77,7 +77,7 @@ impl Column {
         Ok(())
     }
 
-    /// The values of a column that is not flushed.
+    /// The values since the last flush; all values of a column that is never flushed.
     pub(super) fn values(&self) -> &[f64] {
         &self.tail
     }

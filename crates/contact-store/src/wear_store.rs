@@ -120,7 +120,8 @@ impl WearStore {
         Ok(())
     }
 
-    /// Writes the metadata of all variables and the attributes with the `status` of the run.
+    /// Writes the columns, the metadata and checksums of all variables (`block`: the fields of the last block of
+    /// cycles), and last the attributes with the `status` of the run.
     fn write_documents(
         &self,
         folder: &Arc<Folder>,

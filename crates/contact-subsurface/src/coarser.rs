@@ -89,8 +89,8 @@ impl CoarserCells {
         }
     }
 
-    /// Converts a place x, y \[m\] of the fine grid to the coarse one. A place beside a `border` keeps its
-    /// distance from the nearest border there.
+    /// Converts a place x, y \[m\] of the fine grid to the coarse one, whose origin is `middle`. A place beside a
+    /// `border` of the fine grid keeps its distance from the nearest border of the same zone on the coarse grid.
     fn convert_place(&self, x: f64, y: f64, border: Option<&Border>) -> (f64, f64) {
         let (x, y) = (x - self.middle.0, y - self.middle.1);
         let Some(fine_border) = border else {

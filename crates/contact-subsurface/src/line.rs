@@ -181,8 +181,8 @@ impl Line {
         }
     }
 
-    /// This line in coordinates with another origin (x_0, y_0), and the value there of s where it is 0 here
-    /// \[m\].
+    /// This line in coordinates with another origin (x_0, y_0), and the s of this line \[m\] at which s of the
+    /// returned line is 0.
     #[must_use]
     pub fn with_origin(self, (x_0, y_0): (f64, f64)) -> (Self, f64) {
         match self {

@@ -93,7 +93,7 @@ impl Operator {
             3 * cells,
             "the length of the displacement"
         );
-        self.read(sources);
+        self.transform_sources(sources);
         let (wanted, of_tractions) = (answer.wanted, answer.of_tractions);
         let planes = wanted.iter().filter(|wanted| **wanted).count();
         let per_chunk = COMPONENTS * planes + 3;
@@ -142,8 +142,9 @@ impl Operator {
         );
     }
 
-    /// Transforms eigenstrains and tractions to waves.
-    fn read(&mut self, sources: Sources<'_>) {
+    /// Transforms the stress of the eigenstrains and the tractions to waves; marks the planes that have
+    /// eigenstrain.
+    fn transform_sources(&mut self, sources: Sources<'_>) {
         let (cells, stride) = (self.mesh.cells.len(), self.stride);
         let (transform, mesh) = (&self.transform, &self.mesh);
         self.filled.fill(false);

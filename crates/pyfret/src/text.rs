@@ -67,7 +67,8 @@ pub(crate) fn degrees(#[pyo3(from_py_with = number)] angle: f64) -> String {
     digits::degrees(angle)
 }
 
-/// A place [m] on a grid, or in a contact, of a size [m]: zero where it is zero to rounding.
+/// The coordinate `at` [m], or 0 where it is no more than rounding of `size` [m], the length of the
+/// grid or of the contact.
 #[pyfunction]
 #[pyo3(signature = (at: "float", size: "float"))]
 pub(crate) fn rounded_place(

@@ -290,7 +290,7 @@ impl Line {
 }
 
 impl Part {
-    /// The number of samples from one to the next at which a change is computed.
+    /// The step, in samples, between the places at which the change of the stress by the crack is computed.
     fn stride(&self) -> usize {
         let steps = self.s.len() - 1;
         if steps.is_multiple_of(SPARSE) && steps >= SPARSE * (SAMPLES - 1) {

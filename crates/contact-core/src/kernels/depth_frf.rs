@@ -117,8 +117,9 @@ impl Stack {
         ))
     }
 
-    /// The response at depth; `remainder` subtracts the half-space of the outermost
-    /// material, which decays slower (only for places in the outermost layer).
+    /// The stresses and displacements at a depth per unit traction of wave number k \[1/m\] on the surface.
+    /// `remainder` subtracts the half-space of the outermost material, which decays slower (only for places in
+    /// the outermost layer).
     pub(crate) fn fields(&self, k: f64, place: &DepthPoint, remainder: bool) -> WaveFields {
         let mut fields = WaveFields::default();
         let places = std::slice::from_ref(place);

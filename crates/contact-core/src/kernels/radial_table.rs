@@ -182,8 +182,9 @@ impl<const N: usize> HankelSet<'_, N> {
         self.k_low * r / 8.0
     }
 
-    /// For each set of functions, the amplitudes at the nodes of a rule for radii from `r_a` \[m\] on, times
-    /// quadrature weight and `window`.
+    /// For each set of functions, the amplitudes at the nodes of a rule for radii from `r_a` \[m\] on, times the
+    /// quadrature weight. With `window` a smooth step, 1/2 at t = `window`, ends them. A list ends where its
+    /// amplitudes have decayed.
     fn weighted_amplitudes(
         &self,
         rule: &Rule,

@@ -39,7 +39,8 @@ impl CriterionBelow {
     /// The worst point of a layer, None where it is not judged.
     ///
     /// `range` is the margin of the value with its error, `whole` the range of 10 to 90 % with the
-    /// scatter of the material.
+    /// scatter of the material. `order` is the margin without its upper bound, by which layers are
+    /// sorted. Criteria with a plane give its `normal` and its `inclination` to the line [degrees].
     #[pyo3(signature = (layer: "int", material = None) -> "dict[str, Any] | None")]
     fn worst<'py>(
         &self,
@@ -110,7 +111,7 @@ impl CriterionBelow {
         })
     }
 
-    /// The error of the largest mean over a distance.
+    /// The numerical error of `value`, the largest mean of the criterion over a distance along the line.
     fn error_of_largest(
         &self,
         py: Python<'_>,
