@@ -1,8 +1,8 @@
 //! The largest value of a number in a whole body below a contact.
 //!
 //! The ascent starts from samples on a section through the contact, on the section across it, on
-//! the surface and on both sides of every interface, and from the rim of the contact. The ascent
-//! from the highest sample is free in all three directions. If the samples of a layer still rise at
+//! the surface and on both sides of every interface, below the highest asperities, and from the rim
+//! of the contact. The ascent from the highest sample is free in all three directions. If the samples of a layer still rise at
 //! their end, its section is made longer. If the samples of the substrate rise at the deepest of
 //! them, its section is made deeper. This is possible since the tractions are known, so the field
 //! is known beyond the grid.
@@ -15,6 +15,7 @@ use ndarray::{Array1, Array2, Array3, ArrayRef, ArrayView2, Axis, Dimension};
 use super::climb::Start;
 use super::depth::interface_mask;
 use super::maximum::{Top, top_of_line, top_of_plane};
+use super::peaks::pressure_peaks;
 use super::search::{Search, hills_left_out, select_hills};
 use super::{Border, Depth, Extremum, Line, Measure, Point, Probe, Section, Side, Slices, States};
 use contact_core::Error;
@@ -95,6 +96,8 @@ struct Beside {
     on_line: Search,
     /// Whether the line across passes the highest sample of the measure, for want of a contact.
     follows_samples: bool,
+    /// The places of the highest asperities.
+    asperities: Vec<[f64; 2]>,
     /// Stress across by layer, and planes by the number of their depth.
     sections: Mutex<HashMap<usize, Arc<Array3<f64>>>>,
     planes: Mutex<HashMap<usize, Arc<[Array2<f64>; 6]>>>,
@@ -133,6 +136,9 @@ impl BodySearch {
                 slices: Slices::new(body, side, grid, states.clone())?,
                 on_line: search.on_line(line),
                 follows_samples,
+                asperities: first_tractions
+                    .p
+                    .map_or_else(Vec::new, |p| pressure_peaks(grid, p)),
                 sections: Mutex::default(),
                 planes: Mutex::default(),
             };
@@ -251,6 +257,15 @@ impl BodySearch {
                 if depth.z <= 0.0 {
                     surface = Some(plane);
                 }
+            }
+        }
+        if let Some(beside) = &self.beside
+            && !measure.on_interfaces
+        {
+            for depth in depths.iter().filter(|depth| layers.contains(&depth.layer)) {
+                let step = depth_step(depths, *depth);
+                let start = |place: &[f64; 2]| search.start_at(*place, *depth, step);
+                starts.extend(beside.asperities.iter().map(start));
             }
         }
         let near = |border: &Border| {

@@ -45,6 +45,7 @@ mod measure;
 mod moments;
 mod near_rim;
 mod parity;
+mod peaks;
 mod plane_transform;
 mod plastic_strain;
 mod points;
