@@ -187,7 +187,9 @@ impl<'a> Change<'a> {
         let sum = total(&now.dissipated) - total(&then.dissipated);
         let factor = self.fine_cells * sum / total(&dissipated);
         if factor.is_finite() {
-            dissipated.iter_mut().for_each(|density| *density *= factor);
+            for density in &mut dissipated {
+                *density *= factor;
+            }
         }
         add(&mut carried.dissipated, &dissipated);
     }

@@ -122,7 +122,7 @@ impl March {
             Ok(increment) => {
                 along.then = along.now.clone();
                 let increment = match carried {
-                    Some(carried) => self.with_energy(increment, &on_coarse, &carried),
+                    Some(carried) => self.with_energy(&increment, &on_coarse, &carried),
                     None => increment,
                 };
                 if let Some(along) = &mut self.state.along {
@@ -143,7 +143,12 @@ impl March {
     /// Its slip is the change from displacements that were interpolated, which slip a little more than
     /// cells of the grid: the energy of the last increment of a branch is 2 to 5 % low. On the path grid it
     /// follows from the increments before it.
-    fn with_energy(&mut self, row: Increment, on_coarse: &Increment, carried: &[f64]) -> Increment {
+    fn with_energy(
+        &mut self,
+        row: &Increment,
+        on_coarse: &Increment,
+        carried: &[f64],
+    ) -> Increment {
         let state = &mut self.state;
         let factor = on_coarse.energy.dissipated / row.energy.dissipated;
         if factor.is_finite() && state.dissipated.len() == carried.len() {
@@ -152,7 +157,7 @@ impl March {
             }
         }
         state.work += on_coarse.energy.work - row.energy.work;
-        let mut increment = row;
+        let mut increment = *row;
         increment.energy = on_coarse.energy;
         increment.residuals.energy = on_coarse.residuals.energy;
         increment
