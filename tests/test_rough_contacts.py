@@ -188,3 +188,16 @@ def test_a_smooth_ball_given_as_a_map_has_the_warning_of_a_ball() -> None:
         texts = [str(w.message) for w in caught]
         assert any("the contact has 6." in text and "cells across" in text for text in texts), texts
         assert not any("uneven" in text for text in texts), texts
+
+
+@pytest.mark.parametrize("seed", [101, 104, 109])
+def test_the_largest_stress_is_not_below_samples_under_all_asperities(seed: int) -> None:
+    """The search starts below the asperities; planes of the whole contact hold nothing larger."""
+    z, pitch, W = band_limited(seed, 128)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        path = fret.LoadPath.start().normal(W).tangential([0.6 * 0.3 * W])
+        last = fret.solve(scene(z, pitch, friction=0.3), path, progress=False).at(-1)
+        found = last.stress().maximum("von_mises")
+        planes = last.stress(z=pitch * np.geomspace(0.2, 8.0, 12)).von_mises
+    assert found.value >= float(planes.max()) * (1 - 1e-6)
