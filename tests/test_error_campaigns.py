@@ -84,7 +84,7 @@ def test_a_stress_that_jumps_along_a_crack() -> None:
 
 
 def test_energies_along_a_coarser_path_are_those_of_the_grid() -> None:
-    """The last increment of a branch starts from interpolated displacements; its energy does not."""
+    """The last increment of a branch starts from displacements that were interpolated."""
     ball, flat = fret.Elastic(E=210e9, nu=0.3), fret.Elastic(E=70e9, nu=0.2)
     radius = fret.reference.hertz(R=0.01, bodies=(ball, flat), W=100.0).a
     T = 0.7 * 0.69 * 100.0
