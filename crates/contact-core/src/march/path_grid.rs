@@ -20,7 +20,7 @@
 //! with both at the last increment (0) that was solved on both grids, so that it jumps by no more
 //! than the error of the coarse path where the fine grid takes over. The contact area is taken from
 //! the fine grid: at constant normal force the shear moves the rim by less than a coarse cell. The
-//! area of the stick zone is the same part of it as on the coarse grid. Energies are those of the
+//! area of the stick zone is the same part of it as on the coarse grid. Energies come from the
 //! coarse grid wherever the fine one starts from a carried state. If the coarse grid does not
 //! converge the run continues without it, in a first indentation from its increments on the fine grid.
 
