@@ -15,7 +15,9 @@ pub(super) fn first_guess(setup: &Setup<'_>, extrapolates: bool) -> Interface {
     let (problem, state) = (setup.problem, setup.state);
     let mut guess = state.interface.clone();
     if state.loads.W <= 0.0 {
-        let p = setup.first.under(problem, setup.kernel, setup.point);
+        let p = setup
+            .first
+            .get_or_compute(problem, setup.kernel, setup.point);
         guess.p = setup.geometry.cut(problem.plan.mirror, &p);
     }
     match setup.goes_on {

@@ -47,7 +47,9 @@ impl Domain {
             half_lengths(&state.interface.p, mirror.rows(ny), (nx, ny))
         } else if presses {
             let (nx, ny) = shape_of(&problem.scene.grid);
-            let p = self.first.under(problem, &self.kernels.pair.zz, point);
+            let p = self
+                .first
+                .get_or_compute(problem, &self.kernels.pair.zz, point);
             let half = half_lengths(&mirror.fold(&p), mirror.rows(ny), (nx, ny));
             let enters = !growing::steps(problem, state, point).is_empty();
             let beyond = match (enters, problem.scene.is_uneven()) {

@@ -52,7 +52,7 @@ pub(in crate::march) struct FirstPressure(Mutex<Option<(LoadPoint, Arc<Array2<f6
 
 impl FirstPressure {
     /// Returns the first pressure under the loads of a point; `kernel` is C_zz on the whole grid.
-    pub(in crate::march) fn under(
+    pub(in crate::march) fn get_or_compute(
         &self,
         problem: &Problem,
         kernel: &Quadrant,
