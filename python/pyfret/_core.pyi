@@ -950,7 +950,8 @@ class CriterionBelow:
         The worst point of a layer, None where it is not judged.
 
         `range` is the margin of the value with its error, `whole` the range of 10 to 90 % with the
-        scatter of the material.
+        scatter of the material. `order` is the margin without its upper bound, by which layers are
+        sorted. Criteria with a plane give its `normal` and its `inclination` to the line [degrees].
         """
 
 @final
@@ -3279,11 +3280,7 @@ class Subsurface:
         stress still rises at the end of the longest section. `anywhere`: also beside the section.
         """
     def points(
-        self,
-        /,
-        places: Sequence[tuple[float, float, float, int]],
-        *,
-        displacement: bool = False,
+        self, /, places: Sequence[tuple[float, float, float, int]], *, displacement: bool = False
     ) -> NDArray[np.float64]:
         """Stress [Pa] or displacement [m] at points x, y, z, layer; shape (n, 6 or 3)."""
     @property
@@ -4145,7 +4142,7 @@ def rough(value: float) -> str:
     """A number in two digits, which is known to no more."""
 
 def rounded_place(at: float, size: float) -> float:
-    """A place [m] on a grid, or in a contact, of a size [m]: zero where it is zero to rounding."""
+    """The coordinate `at` [m], or 0 where it is rounding of `size` [m], its grid's length."""
 
 def run_command(arguments: Sequence[str]) -> int:
     """

@@ -67,8 +67,7 @@ pub(crate) fn degrees(#[pyo3(from_py_with = number)] angle: f64) -> String {
     digits::degrees(angle)
 }
 
-/// The coordinate `at` [m], or 0 where it is no more than rounding of `size` [m], the length of the
-/// grid or of the contact.
+/// The coordinate `at` [m], or 0 where it is rounding of `size` [m], its grid's length.
 #[pyfunction]
 #[pyo3(signature = (at: "float", size: "float"))]
 pub(crate) fn rounded_place(
