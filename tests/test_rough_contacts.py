@@ -170,26 +170,6 @@ def test_the_slope_does_not_depend_on_the_direction_of_the_shear() -> None:
     assert slopes[0] == pytest.approx(slopes[1], rel=1e-9)
 
 
-def test_a_smooth_ball_given_as_a_map_has_the_warning_of_a_ball() -> None:
-    """A map that makes one spot has no asperities: the sentence about them does not apply."""
-    steel = fret.Elastic(E=2.1e11, nu=0.3)
-    grid = fret.Grid.centred(width=4e-4, n=32)
-    heights = -(grid.x[:, None] ** 2 + grid.y[None, :] ** 2) / (2 * R)
-    shapes: list[fret.Sphere | fret.SurfaceMap] = [
-        fret.Sphere(R=R),
-        fret.SurfaceMap(heights, spacing=grid.dx),
-    ]
-    for shape in shapes:
-        bodies = {"body1": fret.Body(steel, shape=shape), "body2": fret.Body(steel)}
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
-            path = fret.LoadPath.start().normal(10.0)
-            fret.solve(fret.Scene(friction=0.3, grid=grid, **bodies), path, progress=False)
-        texts = [str(w.message) for w in caught]
-        assert any("the contact has 6." in text and "cells across" in text for text in texts), texts
-        assert not any("uneven" in text for text in texts), texts
-
-
 @pytest.mark.parametrize("seed", [101, 104, 109])
 def test_the_largest_stress_is_not_below_samples_under_all_asperities(seed: int) -> None:
     """The search starts below the asperities; planes of the whole contact hold nothing larger."""

@@ -330,7 +330,9 @@ class Parameter:
             return
         if self.text and not isinstance(value, (str, os.PathLike) if self.path else str):
             allowed = "a path, such as 'file.csv'" if self.path else "a text"
-            raise TypeError(f"{self.name} = {short_repr(value)}: must be {allowed}")
+            several = isinstance(value, Sequence | set | frozenset)
+            remedy = ", one for each call" if several and not isinstance(value, bytes) else ""
+            raise TypeError(f"{self.name} = {short_repr(value)}: must be {allowed}{remedy}")
         if self.texts and not isinstance(value, str | os.PathLike):
             several = isinstance(value, Sequence | np.ndarray | set | frozenset)
             if not several or not all(isinstance(i, str | os.PathLike) for i in value):

@@ -111,12 +111,15 @@ impl Reached {
         }
         let area = spots.real_area_error() / spots.real_area().max(f64::MIN_POSITIVE);
         let [area, lone] = [area, spots.lone_share].map(|part| (100.0 * part).ceil());
+        let count = match spots.count {
+            1 => "one spot".to_owned(),
+            count => format!("{count} spots"),
+        };
         Some(format!(
-            "the surfaces are uneven: the contact is {} spots. Its asperities have {} cells across their radius, {lone} % of its cells \
+            "the surfaces are uneven: the contact is {count}. Its asperities have {} cells across their radius, {lone} % of its cells \
              have no neighbour in contact. The real area is off by up to {area} %, the largest pressure and the stick \
              ratio by as much or more. Approach, loads and energies are off by less: solve(..., error=True) estimates each. \
              A map of closer points with more cells shows more of the asperities",
-            spots.count,
             (10.0 * cells).floor() / 10.0
         ))
     }
@@ -125,9 +128,7 @@ impl Reached {
     /// each.
     pub fn doubts(&self, scene: &Scene) -> Vec<String> {
         let mut doubts = Vec::new();
-        // A map of a smooth ball makes one spot, as a ball does.
-        let has_spots = scene.is_uneven() && self.spots.count != 1;
-        if self.cells_per_radius > 0.0 && has_spots {
+        if self.cells_per_radius > 0.0 && scene.is_uneven() {
             doubts.extend(self.doubt_of_asperities());
         } else if self.cells_per_radius > 0.0 {
             doubts.extend(scene.doubts_about_cells(self.cells_per_radius, 1.0));
