@@ -16,7 +16,7 @@ pub(super) fn first_guess(setup: &Setup<'_>, extrapolates: bool) -> Interface {
     let mut guess = state.interface.clone();
     if state.loads.W <= 0.0 {
         let p = setup
-            .first
+            .first_pressure
             .get_or_compute(problem, setup.kernel, setup.point);
         guess.p = setup.geometry.cut(problem.plan.mirror, &p);
     }

@@ -36,7 +36,7 @@ pub(super) fn increment(
         problem,
         geometry,
         kernel: &domain.kernels.pair.zz,
-        first: &domain.first,
+        first_pressure: &domain.first_pressure,
         state,
         roll,
         rolled: rolled.as_ref(),

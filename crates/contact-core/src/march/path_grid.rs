@@ -140,9 +140,9 @@ impl March {
     /// The increment with the energies of the path grid, where it starts from a carried state whose energies per
     /// area are `carried`.
     ///
-    /// Its slip is the change from displacements that were interpolated, which slip a little more than
-    /// cells of the grid: the energy of the last increment of a branch is 2 to 5 % low. On the path grid it
-    /// follows from the increments before it.
+    /// The increment starts from displacements that were interpolated, so that its slip is not the one of the
+    /// grid: its energy is 2 to 5 % low at the end of a branch. The increments of the path grid follow each
+    /// other.
     fn with_energy(
         &mut self,
         row: &Increment,

@@ -66,7 +66,7 @@ pub(super) struct Setup<'a> {
     /// C_zz on the whole grid \[m/Pa\].
     pub(super) kernel: &'a Quadrant,
     /// The pressure from which bodies start that have not touched.
-    pub(super) first: &'a FirstPressure,
+    pub(super) first_pressure: &'a FirstPressure,
     /// The state after the last increment.
     pub(super) state: &'a State,
     pub(super) roll: Roll,

@@ -40,7 +40,7 @@ impl Domain {
         let presses = point.loads.W > 0.0 || point.loads.given.delta_z.is_some();
         let [within, _] = growth(problem, state, point);
         if touches {
-            self.first.clear();
+            self.first_pressure.clear();
         }
         let half = if touches {
             let (nx, ny) = self.shape();
@@ -48,7 +48,7 @@ impl Domain {
         } else if presses {
             let (nx, ny) = shape_of(&problem.scene.grid);
             let p = self
-                .first
+                .first_pressure
                 .get_or_compute(problem, &self.kernels.pair.zz, point);
             let half = half_lengths(&mirror.fold(&p), mirror.rows(ny), (nx, ny));
             let enters = !growing::steps(problem, state, point).is_empty();

@@ -20,7 +20,7 @@ use ndarray::Array2;
 pub(super) use self::embed::state as embedded_state;
 pub(super) use self::nested::FirstPressure;
 pub(super) use self::shape::half_lengths;
-use self::shape::{first, shape_of};
+use self::shape::{first, middle, shape_of};
 use super::State;
 use super::problem::Problem;
 use crate::cells::{Arms, set_fields};
@@ -73,7 +73,7 @@ pub(super) struct Domain {
     /// The whole grid, once it has been needed.
     pub(super) whole: Mutex<Option<Window>>,
     /// The first pressure of a first contact, while it may be needed again.
-    pub(super) first: FirstPressure,
+    pub(super) first_pressure: FirstPressure,
     /// Work done in windows that have been replaced.
     replaced: Convolutions,
     /// Work after which an increment has failed.
@@ -108,7 +108,7 @@ impl Domain {
             kernels,
             window,
             whole: Mutex::default(),
-            first: FirstPressure::default(),
+            first_pressure: FirstPressure::default(),
             replaced: Convolutions::default(),
             limit: Convolutions::MAX,
         })
@@ -320,10 +320,4 @@ impl Geometry {
     pub(super) fn cut(&self, mirror: Mirror, field: &Array2<f64>) -> Vec<f64> {
         mirror.fold(&middle(field, shape_of(&self.grid)))
     }
-}
-
-/// The nx x ny entries in the middle of a field.
-fn middle(field: &Array2<f64>, (nx, ny): (usize, usize)) -> Array2<f64> {
-    let (i, j) = ((field.nrows() - nx) / 2, (field.ncols() - ny) / 2);
-    Array2::from_shape_fn((nx, ny), |(a, b)| field[(i + a, j + b)])
 }

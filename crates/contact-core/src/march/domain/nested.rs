@@ -19,8 +19,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use ndarray::Array2;
 
-use super::middle;
-use super::shape::{half_lengths, shape_for};
+use super::shape::{half_lengths, middle, shape_for};
 use crate::cells::{Arms, Drive};
 use crate::convolution::{CirculantInverse, DcFft, SurfaceOperator, Tractions};
 use crate::convolution::{Convolutions, Displacements};

@@ -1,5 +1,7 @@
 //! Shapes of windows: as many cells as are asked for, in lengths that the operator is fast for.
 
+use ndarray::Array2;
+
 use crate::convolution::fast_length;
 use crate::plan::Plan;
 use crate::scene::{Grid, Scene};
@@ -82,6 +84,12 @@ pub(in crate::march) fn half_lengths(
         }
     }
     half
+}
+
+/// The nx x ny entries in the middle of a field.
+pub(super) fn middle(field: &Array2<f64>, (nx, ny): (usize, usize)) -> Array2<f64> {
+    let (i, j) = ((field.nrows() - nx) / 2, (field.ncols() - ny) / 2);
+    Array2::from_shape_fn((nx, ny), |(a, b)| field[(i + a, j + b)])
 }
 
 #[cfg(test)]
