@@ -87,10 +87,6 @@ pub(super) fn on_line(
     let points = crack.points();
     let line = &stressed.line;
     let stencils = line.stencils(&points);
-    let changes = |lines: &'_ [Line]| -> Vec<Vec<Stencil>> {
-        lines.iter().map(|line| line.stencils(&points)).collect()
-    };
-    let (of_cells, of_mouth) = (changes(&stressed.by_cells), changes(&stressed.by_mouth));
     // K is linear in the stress where faces may pass through each other.
     let linear_changes = |line: &Line, stencils: &[Stencil]| -> Result<Vec<f64>, Error> {
         let of_state = |state| {
@@ -103,37 +99,23 @@ pub(super) fn on_line(
         .map(|state| line.stress(state, &stencils))
         .collect();
     let history = follow_faces(crack, friction, &stress).map_err(to_core_error)?;
-    let mut cells = vec![0.0; stress.len()];
-    let mut touching = cells.clone();
-    for (line, stencils) in stressed.by_cells.iter().zip(&of_cells) {
-        let changes = linear_changes(line, stencils)?;
-        let carried = carried_changes(
-            crack,
-            friction,
-            (&stress, &history),
-            line,
-            stencils,
-            &changes,
-        );
-        raise(&mut cells, &changes);
-        raise(&mut touching, &carried);
-    }
-    let mut mouth = vec![0.0; stress.len()];
-    for (line, stencils) in stressed.by_mouth.iter().zip(&of_mouth) {
-        let changes = linear_changes(line, stencils)?;
-        raise(
-            &mut mouth,
-            &carried_changes(
-                crack,
-                friction,
-                (&stress, &history),
-                line,
-                stencils,
-                &changes,
-            ),
-        );
-        raise(&mut mouth, &changes);
-    }
+    // The largest changes of each state by the stress of some lines: where faces may pass through each other,
+    // and where they touch.
+    let largest_changes = |lines: &[Line]| -> Result<[Vec<f64>; 2], Error> {
+        let mut largest = [0, 1].map(|_| vec![0.0; stress.len()]);
+        for line in lines {
+            let stencils = line.stencils(&points);
+            let linear = linear_changes(line, &stencils)?;
+            let states = (&stress[..], &history[..]);
+            let carried = carried_changes(crack, friction, states, line, &stencils, &linear);
+            raise(&mut largest[0], &linear);
+            raise(&mut largest[1], &carried);
+        }
+        Ok(largest)
+    };
+    let [cells, touching] = largest_changes(&stressed.by_cells)?;
+    let [mut mouth, touching_at_mouth] = largest_changes(&stressed.by_mouth)?;
+    raise(&mut mouth, &touching_at_mouth);
     let mut over = OverCycle {
         faces: Vec::new(),
         linear: Vec::new(),
