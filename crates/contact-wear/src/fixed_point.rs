@@ -55,14 +55,18 @@ impl Default for FixedPoint {
 
 impl FixedPoint {
     /// Takes the `loss` at the last fields of oxygen and debris, and their `image`, which follows from the
-    /// contact after this loss. Returns the loss if both have settled, otherwise the fields to try next.
+    /// contact after this loss. Returns both if they have settled, otherwise the fields to try next. A jump
+    /// that is not `implicit` needs one evaluation.
     pub(crate) fn advance(
         &mut self,
-        third_body: &ThirdBody,
+        (third_body, implicit): (&ThirdBody, bool),
         (worn, loss): (&Worn, Loss),
         fields: &ThirdFields,
         image: ThirdFields,
     ) -> Step {
+        if !implicit {
+            return Step::Settled(loss, image);
+        }
         self.enough = third_body.enough(&loss.depth, worn);
         if let Some(last) = &self.last {
             self.change = last.depth_change(&loss).max(misfit(fields, &image));

@@ -383,18 +383,14 @@ impl Marched {
             let jump = (n, &supply[..], lost);
             let image = third_body.respond(worn, &meeting, jump, &fields)?;
             self.cycle_aerated.clone_from(&image.aerated);
-            let settled = if implicit {
-                match fixed_point.advance(third_body, (worn, loss), &fields, image) {
-                    Step::Settled(loss, image) => (loss, image),
-                    Step::Next(next) => {
-                        fields = next;
-                        continue;
-                    }
+            let step = fixed_point.advance((third_body, implicit), (worn, loss), &fields, image);
+            let (mut loss, image) = match step {
+                Step::Settled(loss, image) => (loss, image),
+                Step::Next(next) => {
+                    fields = next;
+                    continue;
                 }
-            } else {
-                (loss, image)
             };
-            let (mut loss, image) = settled;
             loss.debris = third_body.debris(worn, &rates.slips, jump, &image)?;
             return Ok(loss);
         }

@@ -50,7 +50,7 @@ impl OwnFriction {
         worn: &Worn,
         (bed, aerated): (&[f64], &[f64]),
     ) -> Result<Vec<f64>, Error> {
-        let or_all = |field: &[f64], value: f64| {
+        let field_or = |field: &[f64], value: f64| {
             if field.is_empty() {
                 vec![value; p.len()]
             } else {
@@ -71,8 +71,8 @@ impl OwnFriction {
             dissipated: &worn.energy[self.body],
             worn: [&depths[0], &depths[1]],
             layer: [layer1, layer2],
-            bed: &or_all(bed, 0.0),
-            aerated: &or_all(aerated, 1.0),
+            bed: &field_or(bed, 0.0),
+            aerated: &field_or(aerated, 1.0),
         };
         let mut mu = vec![self.nominal; p.len()];
         self.law.coefficients(&cells, self.nominal, &mut mu)?;

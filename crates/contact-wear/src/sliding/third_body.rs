@@ -107,18 +107,14 @@ impl Sliding {
             };
             let jump = (n, &supply[..], lost);
             let image = third_body.respond(worn, &contact.meeting(), jump, &fields)?;
-            let settled = if implicit {
-                match fixed_point.advance(third_body, (worn, loss), &fields, image) {
-                    Step::Settled(loss, image) => (loss, image),
-                    Step::Next(next) => {
-                        fields = next;
-                        continue;
-                    }
+            let step = fixed_point.advance((third_body, implicit), (worn, loss), &fields, image);
+            let (mut loss, image) = match step {
+                Step::Settled(loss, image) => (loss, image),
+                Step::Next(next) => {
+                    fields = next;
+                    continue;
                 }
-            } else {
-                (loss, image)
             };
-            let (mut loss, image) = settled;
             loss.debris = third_body.debris(worn, &contact.slip, jump, &image)?;
             self.end = implicit.then(|| JumpEnd {
                 p: self.p.clone(),
