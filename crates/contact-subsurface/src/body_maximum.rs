@@ -2,10 +2,10 @@
 //!
 //! The ascent starts from samples on a section through the contact, on the section across it, on
 //! the surface and on both sides of every interface, below the highest asperities, and from the rim
-//! of the contact. The ascent from the highest sample is free in all three directions. If the samples of a layer still rise at
-//! their end, its section is made longer. If the samples of the substrate rise at the deepest of
-//! them, its section is made deeper. This is possible since the tractions are known, so the field
-//! is known beyond the grid.
+//! of the contact. The ascent from the highest sample is free in all three directions. If the
+//! samples of a layer still rise at their end, its section is made longer. If the samples of the
+//! substrate rise at the deepest of them, its section is made deeper. This is possible since the
+//! tractions are known, so the field is known beyond the grid.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
