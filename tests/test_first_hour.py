@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import copy
+import inspect
 import pickle
 import re
+import sys
 from pathlib import Path
 from typing import Any, get_args
 
@@ -15,6 +18,7 @@ import xarray as xr
 
 import pyfret as fret
 from conftest import W, sphere_on_flat
+from pyfret import _core
 from pyfret._util.names import MEANT
 from pyfret.fatigue.criteria import CriterionName
 from pyfret.fit.ranges import USUAL
@@ -182,10 +186,33 @@ def test_a_short_name_of_a_figure_is_answered_once_figures_are_loaded(name: str)
         getattr(fret.plot, name)
 
 
-def test_words_of_others_lead_to_names() -> None:
+#: Variables of wear.
+WORN = {"depth1", "depth2", "volume1", "volume2"}
+
+
+def names_of_package() -> set[str]:
+    """Names of functions and classes, of their parameters and attributes."""
+    names = set()
+    modules = [m for key, m in [*sys.modules.items()] if key.partition(".")[0] == "pyfret"]
+    for member in (member for module in modules for member in vars(module).values()):
+        callables = [member]
+        if inspect.isclass(member):
+            names.update(dir(member))
+            names.update(getattr(member, "__annotations__", {}))
+            callables += vars(member).values()
+        for call in filter(callable, callables):
+            with contextlib.suppress(TypeError, ValueError):
+                names.update(inspect.signature(call).parameters)
+    return names | {name for module in modules for name in vars(module)}
+
+
+def test_words_of_others_lead_to_names(result: fret.Result) -> None:
     assert all(word == word.lower() or len(word) == 1 for word in MEANT)
-    for words in MEANT.values():
+    reachable = names_of_package() | set(_core.probe_labels()) | WORN
+    reachable |= {*map(str, result.dataset.variables), *result.dataset.attrs}
+    for word, words in MEANT.items():
         assert len(set(words)) == len(words)
+        assert reachable.issuperset(words), word
 
 
 @pytest.fixture(scope="module")

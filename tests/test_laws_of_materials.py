@@ -73,7 +73,7 @@ SCENE = fret.Scene(
 def test_several_criteria_are_those_of_lives() -> None:
     several: Any = ["crossland", "dang_van"]
     result = fret.solve(SCENE, save="all", progress=False)
-    with pytest.raises(TypeError, match=r"must be a text, one for each call"):
+    with pytest.raises(TypeError, match=r"fatigue.lives\(result, materials, \[...\]\) evaluates"):
         result.life(ALLOY, several)
     assert list(fatigue.lives(result, ALLOY, several)) == several
 

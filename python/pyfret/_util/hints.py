@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import builtins
 import inspect
-import sys
 import types
 import typing
 from collections import abc
 from collections.abc import Callable
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from pyfret import _core
 
@@ -52,12 +51,6 @@ class Names(dict[str, Any]):
             # An alias that is a text has names of other modules.
             if name in names and not isinstance(names[name], str):
                 return names[name]
-        # A choice of texts of a module that the other one imports for type checkers alone.
-        is_imported = any(name in names for names in self._namespaces)
-        for key, module in () if is_imported else list(sys.modules.items()):
-            choice = vars(module).get(name) if key.startswith("pyfret.") else None
-            if typing.get_origin(choice) is Literal:
-                return choice
         return Named(name, (), {})
 
 

@@ -173,9 +173,26 @@ def choices_of(hint: Any) -> list[str]:
     return [choice for choice in typing.get_args(hint) if isinstance(choice, str)]
 
 
-def folded(text: str) -> str:
+def fold_choice(text: str) -> str:
     """Return a choice in small letters, its words joined by ``_``: "Dang Van" is "dang_van"."""
     return text.lower().replace("-", "_").replace(" ", "_")
+
+
+@dataclass(frozen=True)
+class Remedy:
+    """Metadata of a type: what to do with a value of another class, for its refusal."""
+
+    text: str
+
+
+def split_remedies(kinds: list[Any]) -> tuple[list[Any], str]:
+    """Return types without their remedies, and the remedy."""
+    plain, text = [], ""
+    for kind in kinds:
+        remedies = [m for m in getattr(kind, "__metadata__", ()) if isinstance(m, Remedy)]
+        text = remedies[0].text if remedies else text
+        plain += members(typing.get_args(kind)[0]) if remedies else [kind]
+    return plain, text
 
 
 class Parameter:
@@ -185,6 +202,7 @@ class Parameter:
         self.name, self.default = name, default
         arguments = members(hint)
         kinds = [kind for kind in arguments if kind is not type(None)]
+        kinds, self.remedy = split_remedies(kinds)
         self.optional = len(kinds) < len(arguments) or default is None
         self.unit = next(filter(None, map(unit_of, kinds)), None)
         self.material = _core.Material in kinds or any(
@@ -207,7 +225,7 @@ class Parameter:
         several = any(typing.get_origin(kind) is Sequence for kind in kinds)
         self.layers = several and self.unit is not None and self.unit.quantity == OF_LAYERS
         #: Texts that it has a choice of, by their words in small letters.
-        self.choices = {folded(c): c for kind in kinds for c in choices_of(kind)}
+        self.choices = {fold_choice(c): c for kind in kinds for c in choices_of(kind)}
         self.path = any(names_path(kind) for kind in kinds)
         parts = [typing.get_args(kind) for kind in kinds if len(kinds) == 1]
         self.items = parts[0][-1] if parts and parts[0] and is_object(parts[0][-1]) else None
@@ -230,7 +248,7 @@ class Parameter:
         value = self.find(value)
         self.check_class(value)
         if self.choices and isinstance(value, str):
-            value = self.choices.get(folded(value), value)
+            value = self.choices.get(fold_choice(value), value)
         if self.layers and (has_unit(value) or isinstance(value, str | int | float)):
             assert self.unit is not None
             return [self.unit.convert(value)]
@@ -330,8 +348,7 @@ class Parameter:
             return
         if self.text and not isinstance(value, (str, os.PathLike) if self.path else str):
             allowed = "a path, such as 'file.csv'" if self.path else "a text"
-            several = isinstance(value, Sequence | set | frozenset)
-            remedy = ", one for each call" if several and not isinstance(value, bytes) else ""
+            remedy = f"; {self.remedy}" if self.remedy else ""
             raise TypeError(f"{self.name} = {short_repr(value)}: must be {allowed}{remedy}")
         if self.texts and not isinstance(value, str | os.PathLike):
             several = isinstance(value, Sequence | np.ndarray | set | frozenset)

@@ -10,6 +10,7 @@ from pyfret._core import Material
 from pyfret._util.arrays import number
 from pyfret._util.lazy import xr
 from pyfret._util.material_names import as_material
+from pyfret.fatigue.criteria import CriterionName
 from pyfret.fatigue.cycle_section import cycle_section, section_body, sections_of_cycle
 from pyfret.fatigue.fields import label_criterion_fields
 from pyfret.fatigue.section import Materials, Section, SectionOptions, for_each_layer
@@ -19,7 +20,6 @@ from pyfret.subsurface.fields import coordinates
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from pyfret.fatigue.criteria import CriterionName
     from pyfret.run import Run
 
 __all__ = ["Averaging", "average", "critical_distance"]

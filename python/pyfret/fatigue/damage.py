@@ -22,6 +22,7 @@ from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import format_number, um
+from pyfret.fatigue.criteria import CriterionName
 from pyfret.fatigue.cycle_section import sections_of_cycle
 from pyfret.fatigue.damage_errors import damage_errors
 from pyfret.fatigue.damage_law import BelowKnee, DamageLaw, damage_of_loops
@@ -42,7 +43,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from typing_extensions import Unpack
 
-    from pyfret.fatigue.criteria import CriterionName
     from pyfret.history.spectrum import Spectrum
 
 #: Note on a sum of blocks.

@@ -15,6 +15,7 @@ from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import layer_index, layer_name, length, place
 from pyfret._util.text import html
 from pyfret.fatigue import stored
+from pyfret.fatigue.averages import Averaging
 from pyfret.fatigue.cycles import HistoryKind
 from pyfret.fatigue.distance import OverDistance, default_distances, distance_of_material
 from pyfret.fatigue.fields import margin_name
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from pyfret._core import Criterion, CriterionBelow, Material
-    from pyfret.fatigue.averages import Averaging
+
 
 __all__ = ["Life"]
 

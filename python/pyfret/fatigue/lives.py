@@ -11,13 +11,15 @@ The core computes the stress a few depths at a time, judges it and lets it go. :
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import numpy as np
 
 from pyfret._core import Material
 from pyfret._util.lazy import xr
+from pyfret._util.parameter import Remedy
 from pyfret.fatigue.beyond_yield import note_on_yield
+from pyfret.fatigue.criteria import CriterionName
 from pyfret.fatigue.cycle_section import (
     choose_depths,
     concat_sections,
@@ -38,9 +40,12 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from pyfret._core import CriterionBelow
-    from pyfret.fatigue.criteria import CriterionName
     from pyfret.run import Run
 
+#: The name of one criterion.
+SingleCriterion: TypeAlias = Annotated[
+    CriterionName, Remedy("fatigue.lives(result, materials, [...]) evaluates several")
+]
 #: Criteria in the order in which they are taken where none is given.
 USUAL: tuple[CriterionName, ...] = ("smith_watson_topper", "dang_van", "crossland")
 
@@ -51,7 +56,7 @@ __all__ = ["Life", "Materials", "life", "lives"]
 def life(
     result: Run,
     materials: Materials,
-    criterion: CriterionName | None = None,
+    criterion: SingleCriterion | None = None,
     z: Lengths | None = None,
     *,
     tolerance: float = 1e-3,
@@ -91,11 +96,6 @@ def life(
     """
     if criterion is None:
         criterion = usual_criterion(materials)
-    if not isinstance(criterion, str):
-        raise TypeError(
-            f"criterion = {criterion!r}: must be one of fatigue.CRITERIA; "
-            "fatigue.lives(result, materials, [...]) evaluates several"
-        )
     return lives(result, materials, [criterion], z, tolerance=tolerance, **section)[criterion]
 
 

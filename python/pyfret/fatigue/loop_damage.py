@@ -10,6 +10,7 @@ import numpy as np
 from pyfret import _core
 from pyfret._core import Assessment, Criterion
 from pyfret._util.lazy import xr
+from pyfret.fatigue.criteria import CriterionName
 from pyfret.fatigue.cycle_section import choose_depths, section_body
 from pyfret.fatigue.cycles import history as stress_history
 from pyfret.fatigue.section import Materials, Section, for_each_layer
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from pyfret._core import Elastic
-    from pyfret.fatigue.criteria import CriterionName
     from pyfret.fatigue.damage_law import DamageLaw
     from pyfret.history.states import LoopStates
     from pyfret.quantities import Lengths

@@ -13,13 +13,14 @@ from pyfret._util.lazy import xr
 from pyfret._util.numbers import format_number
 from pyfret.history.channels import channel_unit
 from pyfret.history.counting import Residue, count_signal
+from pyfret.history.spectrum import Distribution
 from pyfret.quantities import quantities
 from pyfret.saveable import Saveable
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pyfret.history.spectrum import Distribution, Spectrum
+    from pyfret.history.spectrum import Spectrum
 
 __all__ = ["CountedLoops", "distinct"]
 

@@ -10,7 +10,7 @@ from pyfret._util.numbers import in_letters
 from pyfret._util.theme import CRACK
 from pyfret.fracture.growth import Cracks, Threshold
 from pyfret.plot.cracks import crack_arrest, intensity_history, kitagawa
-from pyfret.plot.scales import scales
+from pyfret.plot.scales import Units, scales
 from pyfret.plot.sizes import Width, new_panels
 from pyfret.plot.stresses import section_map
 from pyfret.plot.style import inside_legend, styled
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from pyfret.plot.scales import Units
     from pyfret.run import Run
 
 __all__ = ["crack_panels", "crack_path"]

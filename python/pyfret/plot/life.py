@@ -14,8 +14,9 @@ from pyfret._core import with_error, with_range
 from pyfret._util.depths import interfaces
 from pyfret._util.numbers import in_letters, in_powers
 from pyfret._util.theme import REFERENCE, STICK, colour_map
+from pyfret.fatigue.factors import Factor
 from pyfret.plot.depth_axis import DepthScale, draw_depth_axis
-from pyfret.plot.scales import scales
+from pyfret.plot.scales import Units, scales
 from pyfret.plot.sizes import Width, new_axes
 from pyfret.plot.stresses import FLAT, section_size
 from pyfret.plot.style import add_colour_bar, axes, inside_legend, mark, note, styled
@@ -28,10 +29,9 @@ if TYPE_CHECKING:
     from matplotlib.contour import ContourSet
     from numpy.typing import NDArray
 
-    from pyfret.fatigue.factors import Factor, LoadFactors
+    from pyfret.fatigue.factors import LoadFactors
     from pyfret.fatigue.judged import Life
     from pyfret.fatigue.ranges import LifeRange
-    from pyfret.plot.scales import Units
     from pyfret.subsurface.extremum import Extremum
 
 #: How criteria are written in figures.

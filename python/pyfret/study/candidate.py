@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any, Literal
 
 from pyfret._core import Material
+from pyfret.fatigue.criteria import CriterionName
 from pyfret.fatigue.factors import YieldStresses
 from pyfret.fatigue.section import Materials, for_each_layer
 from pyfret.fracture import Threshold
@@ -24,7 +25,7 @@ from pyfret.wear.settings import Law as WearLaw
 
 if TYPE_CHECKING:
     from pyfret._core import Body
-    from pyfret.fatigue.criteria import CriterionName
+
 
 __all__ = ["Candidate", "Duty", "to_candidate"]
 

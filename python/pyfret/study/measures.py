@@ -16,6 +16,7 @@ from pyfret._util.bounds import split
 from pyfret._util.keywords import nearest_names
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import um
+from pyfret.fatigue.criteria import CriterionName
 from pyfret.fatigue.section import Materials
 from pyfret.quantities import (
     Angle,
@@ -37,7 +38,6 @@ from pyfret.study.stresses import LargestStress, stress_measure
 from pyfret.subsurface.tensor import LABELS
 
 if TYPE_CHECKING:
-    from pyfret.fatigue.criteria import CriterionName
     from pyfret.result import Result
 
 __all__ = [

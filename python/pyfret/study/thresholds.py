@@ -20,7 +20,7 @@ from pyfret._util.extras import needed
 from pyfret._util.holds_arrays import HoldsArrays
 from pyfret._util.lazy import xr
 from pyfret._util.parameters import in_si
-from pyfret.fatigue.averages import average
+from pyfret.fatigue.averages import Averaging, average
 from pyfret.fatigue.criteria import CriterionName, Material
 from pyfret.fatigue.lives import life
 from pyfret.quantities import InSI, Length, as_number, by_default, part, quantities
@@ -32,7 +32,6 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pyfret.fatigue.averages import Averaging
     from pyfret.fatigue.ranges import LifeRange
 
 __all__ = ["Averaged", "Limits", "ThresholdLoad", "fit_limits", "threshold"]
