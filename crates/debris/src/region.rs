@@ -73,7 +73,7 @@ impl Region {
 
     /// The region of positive `level`, such as a limit less the gap. Its border lies where the level, linear
     /// between two centres, vanishes. Where the level jumps, as at the edge of a flat pad, it lies on the side
-    /// of the cell: see [`distance`].
+    /// of the cell: see `distance`.
     pub fn from_levels(lattice: Lattice, level: &[f64]) -> Self {
         let cells: Vec<usize> = (0..lattice.cells()).filter(|&n| level[n] > 0.0).collect();
         let mut index = vec![usize::MAX; lattice.cells()];
