@@ -66,10 +66,9 @@ from pyfret._core import Branch as Branch
 from pyfret._core import PerRange as PerRange
 from pyfret._core import Spacing as Spacing
 from pyfret._core import __version__ as __version__
-from pyfret._util.attributes import PUBLIC_MODULES
 from pyfret._util.extras import application
 from pyfret._util.figures import register_figures
-from pyfret._util.modules import PublicModule, name_hint
+from pyfret._util.modules import enter_public_module, name_hint
 from pyfret._util.names import OTHER_NAMES, listing
 from pyfret.contacts import offer as offer_contacts
 from pyfret.grids import offer as offer_grids
@@ -144,30 +143,26 @@ __dir__ = listing(__all__)
 
 offer_grids()
 offer_contacts()
-PUBLIC_MODULES.update(
-    {name: globals()[name] for name in __all__ if isinstance(globals().get(name), ModuleType)}
-)
+for _name in __all__:
+    if isinstance(globals().get(_name), ModuleType):
+        enter_public_module(globals()[_name].__name__)
 
 
 def _load_figures() -> ModuleType:
     """Import the figures, and with them matplotlib."""
     try:
-        PUBLIC_MODULES["plot"] = import_module("pyfret.plot")
+        return import_module("pyfret.plot")
     except ModuleNotFoundError as absent:
         if absent.name != "matplotlib":
             raise
         message = 'figures need matplotlib: pip install "fretting[plot]"'
         raise ModuleNotFoundError(message, name="matplotlib") from absent
-    return PUBLIC_MODULES["plot"]
 
 
 def _read_columns(*values: Any, **options: Any) -> Any:
     """Read the columns of a file, with the readers of measured data."""
     return import_module("pyfret.fit.recorders").read_columns(*values, **options)
 
-
-for _module in PUBLIC_MODULES.values():
-    _module.__class__ = PublicModule
 
 register_figures(_load_figures)
 register_reader(_read_columns)
@@ -191,9 +186,7 @@ def __getattr__(name: str) -> Any:
     if name in _LATER:
         globals()[name] = _LATER[name]()
         if isinstance(globals()[name], ModuleType):
-            PUBLIC_MODULES[name] = globals()[name]
-            if not isinstance(globals()[name], PublicModule):
-                globals()[name].__class__ = PublicModule
+            enter_public_module(globals()[name].__name__)
         return globals()[name]
     public_name = OTHER_NAMES.get(name)
     hint = f"; it is called pyfret.{public_name}" if public_name else ""

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import sys
+from importlib import import_module
 from types import ModuleType
 from typing import Any
 
 from pyfret._util.attributes import PUBLIC_MODULES
 from pyfret._util.keywords import nearest_names
 
-__all__ = ["PublicModule", "name_hint"]
+__all__ = ["PublicModule", "enter_public_module", "name_hint"]
+
+#: Functions that calls of a module mean: ``fret.fit(...)`` is ``fret.fit.fit(...)``.
+MAIN_FUNCTIONS = {"fit": "fit", "study": "run"}
 
 #: Public names by the words that others have for them, for modules.
 SYNONYMS = {
@@ -51,8 +55,8 @@ def name_hint(name: str, module: str = "") -> str:
     module : str
         Public module that was asked for it, such as "study"; empty for the package.
     """
-    loaded = PUBLIC_MODULES.get(module) or sys.modules.get(f"pyfret.{module}")
-    own = getattr(loaded or sys.modules["pyfret"], "__all__", ())
+    owner = PUBLIC_MODULES.get(module) or import_module("pyfret")
+    own = getattr(owner, "__all__", ())
     elsewhere = [
         f"{key}.{name}"
         for key, public in sorted(PUBLIC_MODULES.items())
@@ -82,12 +86,21 @@ class PublicModule(ModuleType):
             raise AttributeError(message)
         raise AttributeError(message + name_hint(name, self.__name__.rpartition(".")[2]))
 
-    def __call__(self, *_: Any, **__: Any) -> Any:
-        """Refuse a call, with the functions of the module."""
+    def __call__(self, *arguments: Any, **keywords: Any) -> Any:
+        """Call the main function of the module, or refuse with the functions that it has."""
         short_name = self.__name__.rpartition(".")[2]
+        if short_name in MAIN_FUNCTIONS:
+            return getattr(self, MAIN_FUNCTIONS[short_name])(*arguments, **keywords)
         functions = [
             f"fret.{short_name}.{name}(...)"
             for name in self.__all__
             if callable(getattr(self, name)) and not isinstance(getattr(self, name), type)
         ]
         raise TypeError(f"{self.__name__} is a module; it has {', '.join(functions[:12])}")
+
+
+def enter_public_module(name: str) -> None:
+    """Make a loaded module of the package, such as "pyfret.fit", a module of the public face."""
+    module = sys.modules[name]
+    module.__class__ = PublicModule
+    PUBLIC_MODULES[name.rpartition(".")[2]] = module

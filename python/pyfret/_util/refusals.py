@@ -84,10 +84,18 @@ def name_missing(call: Callable[..., Any], name: str, error: Exception) -> TypeE
     described = []
     for parameter in names:
         entry = re.search(
-            rf"^ *(?:\w+, )*{parameter}\b[\w, ]*(?: : .*)?\n +(\S.*)", documentation, re.M
+            rf"^ *(?:\w+, )*{parameter}\b[\w, ]*(?: : .*)?\n( +)(\S.*(?:\n\1\S.*)*)",
+            documentation,
+            re.M,
         )
-        described.append(f"{parameter} ({entry[1].rstrip('.:')})" if entry else parameter)
+        described.append(f"{parameter} ({first_clause(entry[2])})" if entry else parameter)
     return TypeError(f"{name} needs {' and '.join(described)}")
+
+
+def first_clause(text: str) -> str:
+    """Return the first sentence of a text, without what follows a colon and without an example."""
+    sentence = re.split(r"[.:;](?:\s|$)", " ".join(text.split()), maxsplit=1)[0]
+    return re.split(r",? such as\b", sentence, maxsplit=1)[0]
 
 
 def explain(name: str, arguments: Mapping[str, Any], error: Exception) -> Exception | None:

@@ -11,10 +11,7 @@ should have been. ``search`` finds the unknowns, and ``outcome`` holds them with
 
 from __future__ import annotations
 
-import sys
-from typing import Any
-
-from pyfret._util.modules import PublicModule
+from pyfret._util.modules import enter_public_module
 from pyfret._util.names import listing
 from pyfret.fit.data import (
     Indentation,
@@ -44,13 +41,4 @@ __all__ = [
 ]
 __dir__ = listing(__all__)
 
-
-class _Fit(PublicModule):
-    """The module, which is called by what it does: ``fret.fit(...)`` is ``fret.fit.fit(...)``."""
-
-    def __call__(self, *arguments: Any, **keywords: Any) -> FitResult:
-        """Fit unknowns of a scene to data; see :func:`pyfret.fit.fit`."""
-        return fit(*arguments, **keywords)
-
-
-sys.modules[__name__].__class__ = _Fit
+enter_public_module(__name__)

@@ -10,10 +10,7 @@ the study of the load path for a map of running conditions. ::
 
 from __future__ import annotations
 
-import sys
-from typing import Any
-
-from pyfret._util.modules import PublicModule
+from pyfret._util.modules import enter_public_module
 from pyfret._util.names import listing
 from pyfret.study.answers import answers
 from pyfret.study.candidate import Candidate
@@ -49,13 +46,4 @@ __all__ = [
 ]
 __dir__ = listing(__all__)
 
-
-class _Study(PublicModule):
-    """The module, which is called by what it does, as :func:`run`."""
-
-    def __call__(self, *arguments: Any, **keywords: Any) -> Study:
-        """Solve a contact for many values of its parameters; see :func:`pyfret.study.run`."""
-        return run(*arguments, **keywords)
-
-
-sys.modules[__name__].__class__ = _Study
+enter_public_module(__name__)
