@@ -193,5 +193,5 @@ def __getattr__(name: str) -> Any:
     if not hint and not name.startswith("_"):
         for later in ("fit", "study"):
             __getattr__(later)
-        hint = name_hint(name)
+        hint = name_hint(name, __all__)
     raise AttributeError(f"module 'pyfret' has no attribute {name!r}{hint}")

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import sys
-from importlib import import_module
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pyfret._util.attributes import PUBLIC_MODULES
 from pyfret._util.keywords import nearest_names
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 __all__ = ["PublicModule", "enter_public_module", "name_hint"]
 
@@ -45,18 +47,18 @@ SYNONYMS = {
 }
 
 
-def name_hint(name: str, module: str = "") -> str:
+def name_hint(name: str, own: Sequence[str], module: str = "") -> str:
     """Return a clause with the public name that a wrong one means; empty where none is near.
 
     Parameters
     ----------
     name : str
         The wrong name.
+    own : sequence of str
+        Public names of the module that was asked for it.
     module : str
-        Public module that was asked for it, such as "study"; empty for the package.
+        That module, such as "study"; empty for the package.
     """
-    owner = PUBLIC_MODULES.get(module) or import_module("pyfret")
-    own = getattr(owner, "__all__", ())
     elsewhere = [
         f"{key}.{name}"
         for key, public in sorted(PUBLIC_MODULES.items())
@@ -84,7 +86,8 @@ class PublicModule(ModuleType):
         message = f"module {self.__name__!r} has no {name!r}"
         if name.startswith("_"):
             raise AttributeError(message)
-        raise AttributeError(message + name_hint(name, self.__name__.rpartition(".")[2]))
+        short_name = self.__name__.rpartition(".")[2]
+        raise AttributeError(message + name_hint(name, self.__all__, short_name))
 
     def __call__(self, *arguments: Any, **keywords: Any) -> Any:
         """Call the main function of the module, or refuse with the functions that it has."""

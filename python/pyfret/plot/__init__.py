@@ -122,6 +122,8 @@ if TYPE_CHECKING:
 def __getattr__(name: str) -> Any:
     """Import the figures of the paper at their first use."""
     if name not in ("paper", "paper_figures"):
-        raise AttributeError(f"module 'pyfret.plot' has no {name!r}{name_hint(name, 'plot')}")
+        raise AttributeError(
+            f"module 'pyfret.plot' has no {name!r}{name_hint(name, __all__, 'plot')}"
+        )
     paper_module = application("pyfret.plot.paper")
     return paper_module if name == "paper" else paper_module.paper_figures
