@@ -3,6 +3,7 @@
     python tests/campaign/rough.py theorem FIRST COUNT
     python tests/campaign/rough.py points FIRST COUNT
     python tests/campaign/rough.py cycle FIRST COUNT
+    python tests/campaign/rough.py presets FIRST COUNT
 
 `theorem`: like bodies with nu = 0 under a cycle of T_x, on 128 x 128 points. With the approach d(W)
 of pressing alone, its elastic energy U(W) and its real area A(W),
@@ -20,6 +21,9 @@ approach of the first two lie within 1.5 of their errors of the third.
 
 `cycle`: processor time of a cycle of shear over the pressing before it, on 512 x 512 points of
 self-affine surfaces, in one increment per branch.
+
+`presets`: processor time of pressing, from the scene to the pressure, over the time with the preset
+`spinu2020`; medians of repetitions in turn, on 128, 256 and 512 points of self-affine surfaces.
 """
 
 from __future__ import annotations
@@ -113,6 +117,31 @@ def cycle(seed: int) -> Iterator[Row]:
     yield {"pressing [s]": spent[0], "cycle over pressing": sum(spent[2:]) / spent[0]}
 
 
+def presets(seed: int) -> Iterator[Row]:
+    """Processor time of pressing with the preset `fast` over the time with `spinu2020`."""
+    row: Row = {}
+    for n, repetitions in ((128, 15), (256, 7), (512, 3)):
+        z, pitch, W = surface(seed, n)
+        path = fret.LoadPath.start().normal(W, increments=1)
+        marches = {
+            name: scene(z, pitch, settings=fret.Settings(preset=name, tolerance=1e-6)).replace(
+                path=path
+            )
+            for name in ("fast", "spinu2020")
+        }
+        spent: dict[str, list[float]] = {name: [] for name in marches}
+        for _ in range(repetitions):
+            for name, made in marches.items():
+                begun = time.process_time()
+                next(fret._core.March(made))
+                spent[name].append(time.process_time() - begun)
+        row[f"{n}"] = float(np.median(spent["fast"]) / np.median(spent["spinu2020"]))
+    yield row
+
+
+PARTS = {"theorem": theorem, "points": points, "cycle": cycle, "presets": presets}
+
+
 def main() -> None:
     """Print a line for each surface, and the largest ratios."""
     part, first, count = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
@@ -120,7 +149,7 @@ def main() -> None:
     for seed in range(first, first + count):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            for row in {"theorem": theorem, "points": points, "cycle": cycle}[part](seed):
+            for row in PARTS[part](seed):
                 rows.append(row)
                 print(seed, *(f"{k} {v:.3g}" for k, v in row.items()), flush=True)
     for name in rows[0]:
