@@ -7,6 +7,7 @@ it runs, all by the same measure.
 
 from __future__ import annotations
 
+import functools
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -70,6 +71,7 @@ def squared_radius(shape: Shape, n: int) -> Field:
     return square
 
 
+@functools.cache
 def roughness(shape: Shape, n: int) -> Field:
     """Heights of the roughness in the middles of the cells [m]: Hurst exponent 0.8, no image."""
     most = round(1 / shape.shortest)

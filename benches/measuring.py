@@ -14,7 +14,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from hertz import SHAPES, Shape, judge
+from hertz import SHAPES, Shape, judge, roughness
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -88,6 +88,9 @@ def measure(
     options = parser.parse_args()
     start_up = time.time() - options.started if options.started else 0.0
     shape = SHAPES[options.scene]
+    if shape.rms > 0:
+        # The heights are given: neither the memory nor the time of a program.
+        roughness(shape, options.cells)
     line: dict[str, Any] = {"version": version, "threads": threads, "start_up_s": start_up}
     line |= {"scene": options.scene, "cells": options.cells, "memory_empty": peak_memory()}
     spin(WARM_UP)
