@@ -16,7 +16,7 @@ from pyfret._util.csv_table import (
     write_excel,
 )
 from pyfret._util.keywords import nearest_names
-from pyfret._util.window import format_table
+from pyfret._util.window import format_table, wrap
 
 if TYPE_CHECKING:
     import os
@@ -74,7 +74,7 @@ class Table(xr.Dataset):  # type: ignore[no-untyped-call]
             rows = [*rows[: ROWS // 2], ["..."] * frame.shape[1], *rows[-ROWS // 2 :]]
         text = format_table([str(name).replace(" [", "\n[") for name in frame.columns], rows)
         omitted = full.shape[1] - frame.shape[1]
-        return f"{text}\n{omitted} more columns: to_dataframe()" if omitted else text
+        return wrap(f"{text}\n{omitted} more columns: to_dataframe()" if omitted else text)
 
     def __getitem__(self, key: Any) -> Any:
         """Return a column by its name, the row of a number, or what xarray selects by a key.

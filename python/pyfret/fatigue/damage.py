@@ -22,6 +22,7 @@ from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import format_number, um
+from pyfret._util.window import wrap
 from pyfret.fatigue.criteria import CriterionName
 from pyfret.fatigue.cycle_section import sections_of_cycle
 from pyfret.fatigue.damage_errors import damage_errors
@@ -156,7 +157,7 @@ class Damage(Saveable, Labelled, Figured):
         if duration and self.worst > 0.0:
             hours = float(duration) * self.repeats / 3600.0
             lines[-1] += f", {_core.rough(hours)} h"
-        return "\n".join([*lines, *self.notes])
+        return wrap("\n".join([*lines, *self.notes]))
 
     __repr__ = summary
 

@@ -13,6 +13,7 @@ from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import length
+from pyfret._util.window import wrap
 from pyfret.saveable import Saveable
 from pyfret.scene.tables import table
 
@@ -72,7 +73,7 @@ class OverDistance(Saveable, Labelled, Figured):
 
     def summary(self) -> str:
         """Return the table as text."""
-        return repr(self)
+        return wrap(repr(self))
 
     @property
     def margin(self) -> xr.DataArray:

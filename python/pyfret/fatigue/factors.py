@@ -22,6 +22,7 @@ from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import layer_index
 from pyfret._util.numbers import place as describe_place
+from pyfret._util.window import wrap
 from pyfret.fatigue.cycle_section import (
     choose_depths,
     concat_sections,
@@ -135,7 +136,7 @@ class LoadFactors(Labelled, Figured):
                 least = self.least(factor)
                 number = with_error(least.value, least.error)
                 lines.append(f"{factor}: {number} at {describe_place(least, least.coatings)}")
-        return "\n".join(lines)
+        return wrap("\n".join(lines))
 
     def __eq__(self, other: object) -> bool:
         """Whether dataset and layers are the same."""

@@ -14,6 +14,7 @@ from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.numbers import layer_index, layer_name, length, place
 from pyfret._util.text import html
+from pyfret._util.window import wrap
 from pyfret.fatigue import stored
 from pyfret.fatigue.averages import Averaging
 from pyfret.fatigue.cycles import HistoryKind
@@ -103,7 +104,7 @@ class Life(Saveable, Labelled, Figured):
 
     def summary(self) -> str:
         """Say what was judged and how it ends: the range, where, over which distance, notes."""
-        return repr(self)
+        return wrap(repr(self))
 
     @property
     def L(self) -> float | None:

@@ -14,6 +14,7 @@ from pyfret._util.csv_table import Tabular
 from pyfret._util.holds_arrays import HoldsArrays
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import length
+from pyfret._util.window import wrap
 from pyfret.fit.recorders import read_columns
 from pyfret.fit.turns import find_turns, remove_drift, turns_between
 from pyfret.quantities import (
@@ -148,7 +149,7 @@ class Loops(Measurement):
         """Describe the loops: cycles, points, ranges, energy per cycle."""
         energies = self.energies
         lines = [
-            f"{energies.size} whole cycles, {self.delta.size} points",
+            f"{energies.size} whole cycle{'s' * (energies.size != 1)}, {self.delta.size} points",
             f"shift {length(float(self.delta.min()))} to {length(float(self.delta.max()))}, force "
             f"{self.T.min():.4g} to {self.T.max():.4g} N",
             "the loops slide" if self.sliding_slope is not None else "the loops do not slide",
@@ -158,7 +159,7 @@ class Loops(Measurement):
                 f", {energies.min():.4g} to {energies.max():.4g} J" if energies.size > 1 else ""
             )
             lines.insert(2, f"energy per cycle {energies.mean():.4g} J{spread}")
-        return "\n".join(lines).replace("µ", "u")
+        return wrap("\n".join(lines).replace("µ", "u"))
 
     @property
     def sliding_slope(self) -> float | None:
@@ -314,7 +315,7 @@ class Indentation(Measurement):
 
     def summary(self) -> str:
         """Describe the curve: points, largest force and approach."""
-        return (
+        return wrap(
             f"{self.W.size} points, up to {float(self.W.max()):.4g} N and an approach of "
             f"{length(float(np.max(self.delta_z)))}"
         )
@@ -361,7 +362,7 @@ class Scar(Measurement):
         x, depth = np.asarray(self.x), np.asarray(self.depth)
         wear = ", ".join(f"{key} = {value!r}" for key, value in self.wear.items())
         area = 0.5 * float(np.sum((depth[1:] + depth[:-1]) * np.diff(x)))
-        return (
+        return wrap(
             f"{depth.size} points over {length(float(np.ptp(x)))}, depth up to "
             f"{length(float(depth.max()))}, worn area {area:.4g} m^2\n"
             f"body {self.body_number or '1 and 2 together'}; {wear}"
@@ -399,7 +400,7 @@ class Lives(Measurement):
     def summary(self) -> str:
         """Describe the tests: their number and the range of their lives."""
         lives = np.asarray(self.cycles, dtype=float)
-        return f"{lives.size} tests, {lives.min():.4g} to {lives.max():.4g} cycles"
+        return wrap(f"{lives.size} tests, {lives.min():.4g} to {lives.max():.4g} cycles")
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -14,7 +14,7 @@ from pyfret._util.holds_arrays import HoldsArrays
 from pyfret._util.keywords import nearest_names, refuse_unknown
 from pyfret._util.lazy import xr
 from pyfret._util.packed import packed
-from pyfret._util.window import format_table
+from pyfret._util.window import format_table, wrap
 from pyfret.fit.data import Loops
 from pyfret.saveable import Saveable
 
@@ -354,7 +354,7 @@ class FitResult(Saveable, HoldsArrays):
                 f"residual of {measured_set.labels[1]}: {noise:.3g}, {part:.1%} of its range"
             )
         lines.append(f"{self.solves} solves")
-        return "\n".join(lines + self.doubts)
+        return wrap("\n".join(lines + self.doubts))
 
     def __repr__(self) -> str:
         """Tell the values."""

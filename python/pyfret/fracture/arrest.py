@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 from pyfret._core import rough, with_error, with_range
 from pyfret._util.attributes import missing_attribute
 from pyfret._util.numbers import um
+from pyfret._util.window import wrap
 
 __all__ = ["WORDS", "CrackArrest", "CrackLife"]
 
@@ -113,7 +114,7 @@ class CrackArrest:
 
     def summary(self) -> str:
         """Return :meth:`describe` with a line for each fact."""
-        return "\n".join(self.notes())
+        return wrap("\n".join(self.notes()))
 
     def notes(self) -> list[str]:
         """Give :meth:`describe` as a list, a fact each."""

@@ -17,6 +17,7 @@ from pyfret._util.arrays import plain
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import um
+from pyfret._util.window import wrap
 from pyfret.fracture.growth import Paris, Threshold
 from pyfret.history.load_history import LoadHistory
 from pyfret.history.states import states_of_march
@@ -72,9 +73,11 @@ class BlockGrowth(Labelled):
         """Describe the growth at the ends of the lengths."""
         d = self.dataset
         ends = [0, -1]
-        return "; ".join(
-            f"{um(float(d.growth[k]))} in one pass at a length of {um(float(d.length[k]))}"
-            for k in ends
+        return wrap(
+            "\n".join(
+                f"{um(float(d.growth[k]))} in one pass at a length of {um(float(d.length[k]))}"
+                for k in ends
+            )
         )
 
     __repr__ = summary

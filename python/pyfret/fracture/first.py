@@ -10,6 +10,7 @@ import numpy as np
 from pyfret._core import with_error
 from pyfret._util.attributes import missing_attribute
 from pyfret._util.numbers import um
+from pyfret._util.window import wrap
 from pyfret.fatigue.cycle_section import sections_of_cycle
 from pyfret.fatigue.cycles import history
 from pyfret.fatigue.section import Section
@@ -89,7 +90,9 @@ class FailureOrder(NamedTuple):
     def summary(self) -> str:
         """Describe the loads of film, interface and substrate, which fails first, and the crack."""
         crack = [] if self.arrest is None else [f"a crack {self.arrest.describe()}"]
-        return "\n".join([*self._sentences(), f"first to fail: {self.first or 'none'}", *crack])
+        return wrap(
+            "\n".join([*self._sentences(), f"first to fail: {self.first or 'none'}", *crack])
+        )
 
 
 @quantities

@@ -14,7 +14,7 @@ from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.material_names import as_material
-from pyfret._util.window import format_table
+from pyfret._util.window import format_table, wrap
 from pyfret.fracture.arrest import CrackArrest, CrackLife
 from pyfret.quantities import (
     CrackGrowth,
@@ -333,7 +333,7 @@ class Cracks(Saveable, Labelled, Figured):
         if "error" in self.dataset:
             for name, error in (("K_max", self.error), ("range", self.dK_error())):
                 lines.append(f"error of {name}: {1e-6 * error.max():.2g} {unit} at most")
-        return "\n".join(lines)
+        return wrap("\n".join(lines))
 
     @quantities
     def dK(self, threshold: Threshold | None = None) -> NDArray[np.float64]:

@@ -13,6 +13,7 @@ from pyfret._util.arrays import number, plain
 from pyfret._util.figures import Figured
 from pyfret._util.holds_arrays import HoldsArrays
 from pyfret._util.numbers import format_number
+from pyfret._util.window import wrap
 from pyfret.history.channels import (
     CHANNELS,
     Channel,
@@ -415,7 +416,7 @@ class LoadHistory(HoldsArrays, Figured):
 
     def summary(self) -> str:
         """Describe the history: channels, duration, counted loops."""
-        return self._text()
+        return wrap(self._text())
 
     def __repr__(self) -> str:
         """The history in a line."""
@@ -433,7 +434,7 @@ class LoadHistory(HoldsArrays, Figured):
                 f"and {format_number(s.peaks)} peaks per s, {self.distribution}{clock}"
             )
         if self.loops is not None:
-            return f"{self.loops.summary()}{clock}"
+            return f"{self.loops!r}{clock}"
         values = self.channels[self.channel]
         ranges = f"{format_number(values.min())} to {format_number(values.max())} {unit}"
         others = [name for name in self.channels if name != self.channel]

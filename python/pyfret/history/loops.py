@@ -11,6 +11,7 @@ from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import format_number
+from pyfret._util.window import wrap
 from pyfret.history.channels import channel_unit
 from pyfret.history.counting import Residue, count_signal
 from pyfret.history.spectrum import Distribution
@@ -182,13 +183,15 @@ class CountedLoops(Saveable, Labelled, Figured):
 
     def summary(self) -> str:
         """Describe the loops: how many, the largest, the rule of counting."""
+        return wrap(repr(self))
+
+    def __repr__(self) -> str:
+        """The loops in a line."""
         unit = self.dataset["range"].attrs["units"]
         return (
             f"{self.dataset.attrs['channel']}: {format_number(self.total)} loops, ranges up to "
             f"{format_number(self.largest_range)} {unit} ({self.dataset.attrs['rule']})"
         )
-
-    __repr__ = summary
 
 
 def distinct(values: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -18,6 +18,7 @@ import numpy as np
 from pyfret import _core
 from pyfret._core import InvalidSceneError, NoConvergenceError, OffGridError
 from pyfret._util.numbers import format_number
+from pyfret._util.window import wrap
 from pyfret.history.channels import load_of
 from pyfret.history.counting import rearranged
 from pyfret.history.energy_curve import EnergyCurve
@@ -321,7 +322,7 @@ class HistoryTable:
         means = "" if self.ladder.grid is None else f", {self.ladder.grid.outer[0, 0].size} means"
         lines = [
             f"{self.amplitudes.size} amplitudes{means} marched, "
-            f"interpolation {self.interpolation_error:.1e}"
+            f"interpolation {_core.rough(100.0 * self.interpolation_error)} %"
         ]
         if self.record_scatter is not None:
             lines.append(
@@ -333,7 +334,7 @@ class HistoryTable:
         elif self.check is not None:
             lines.append(
                 "memory approximate: a stretch of the history marched in full differs by "
-                f"{self.check.energy_error:.1e} in energy"
+                f"{_core.rough(100.0 * self.check.energy_error)} % in energy"
             )
         else:
             lines.append("memory approximate, and its error unknown: no stretch was marched")
@@ -477,7 +478,7 @@ class HistoryTable:
             f"energy of the loops {energy} {unit}",
             *self.notes,
         ]
-        return "\n".join(lines)
+        return wrap("\n".join(lines))
 
     __repr__ = summary
 

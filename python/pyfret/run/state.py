@@ -10,6 +10,7 @@ import numpy as np
 from pyfret import _core
 from pyfret._util.attributes import attribute_error
 from pyfret._util.numbers import in_words
+from pyfret._util.window import wrap
 from pyfret.quantities import quantities
 from pyfret.run.attributes import OfRun
 
@@ -155,7 +156,7 @@ class State(OfRun):
                 unit = d[name].attrs.get("units", "1")
                 value = in_words(float(d[name])) + ("" if unit == "1" else f" {unit}")
                 lines.append(f"{name} = {value}: {d[name].attrs.get('long_name', '')}")
-        return "\n".join(lines)
+        return wrap("\n".join(lines))
 
     def names(self) -> list[str]:
         """Names of all variables, in order."""

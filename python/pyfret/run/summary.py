@@ -9,7 +9,7 @@ import numpy as np
 from pyfret._core import STRAIN_AT_A_RIM, TOO_FEW_INCREMENTS, with_error
 from pyfret._util.numbers import in_words
 from pyfret._util.text import shown
-from pyfret._util.window import format_table
+from pyfret._util.window import format_table, wrap
 from pyfret.run.loops import frictionless, state_in_words
 
 if TYPE_CHECKING:
@@ -135,7 +135,7 @@ def summary(result: Run) -> str:
         *far_from_yield(result),
         *strain_at_rim(result),
     ]
-    return shown("\n".join([title, *lines, table, *doubts]))
+    return wrap(shown("\n".join([title, *lines, table, *doubts])))
 
 
 def yardsticks(result: Run) -> list[str]:

@@ -16,6 +16,7 @@ from pyfret._core import SurfaceMap
 from pyfret._util.attributes import missing_attribute
 from pyfret._util.csv_table import check_path
 from pyfret._util.numbers import length
+from pyfret._util.window import wrap
 from pyfret.quantities import Length, as_number, quantities
 
 if TYPE_CHECKING:
@@ -356,8 +357,11 @@ def summarize_map(surface: SurfaceMap) -> str:
     heights = ", ".join(
         f"{name} {length(getattr(parameters, name))}" for name in ("S_q", "S_a", "S_z")
     )
+    # A skewness that is rounded to zero has no sign.
+    skewness, kurtosis = (round(value, 2) + 0.0 for value in (parameters.S_sk, parameters.S_ku))
+    lines.append(f"without the form: {heights}")
     lines.append(
-        f"without the form: {heights}, S_sk {parameters.S_sk:.2f}, S_ku {parameters.S_ku:.2f}, "
-        f"S_dq {parameters.S_dq:.3g} at {length(parameters.S_dq_length)}"
+        f"  S_sk {skewness:.2f}, S_ku {kurtosis:.2f}, S_dq {parameters.S_dq:.3g} "
+        f"at {length(parameters.S_dq_length)}"
     )
-    return "\n".join(lines)
+    return wrap("\n".join(lines))

@@ -11,6 +11,7 @@ import numpy as np
 from pyfret._core import LoadPath, Scene
 from pyfret._util.numbers import in_words, length
 from pyfret._util.text import html
+from pyfret._util.window import wrap
 from pyfret.scene.words import friction_in_words, shape_in_words
 
 if TYPE_CHECKING:
@@ -129,7 +130,7 @@ def summarize_scene(scene: Scene) -> str:
     for n, branch in enumerate(scene.path.branches):
         count = "chosen" if branch.increments is None else str(branch.increments)
         lines.append(f"branch {n}: to {given(branch, scene.grid)}; increments: {count}")
-    return unescape(TAG.sub("", "\n".join(lines).replace("<sub>", "_")))
+    return wrap(unescape(TAG.sub("", "\n".join(lines).replace("<sub>", "_"))))
 
 
 def scene_html(scene: Scene) -> str:

@@ -18,7 +18,7 @@ from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import in_letters, in_words, length
 from pyfret._util.page import svg_image, write_page
-from pyfret._util.window import format_table
+from pyfret._util.window import format_table, wrap
 from pyfret.fatigue.ranges import Range
 from pyfret.scene.tables import table
 from pyfret.study.point import FAILED, PARTLY
@@ -227,7 +227,7 @@ class Comparison(Labelled, Figured):
 
     def rows(self) -> list[list[str]]:
         """Return the table as text: a head, then a line for every number."""
-        lines = [["", "", *self.candidates, ""]]
+        lines = [["", "", *self.candidates, "preference"]]
         for name in self.numbers:
             lines.append(self.row(name))
             if f"{name}_layer" in self.dataset:
@@ -272,7 +272,7 @@ class Comparison(Labelled, Figured):
         """Return the table as text, with missing answers and doubts."""
         titles, *rows = self.rows()
         title = str(self.dataset.attrs["title"] or "comparison")
-        return "\n".join([title, format_table(titles, rows), *self.notes()])
+        return wrap("\n".join([title, format_table(titles, rows, keys=2), *self.notes()]))
 
     def notes(self) -> list[str]:
         """List missing answers, failed candidates and doubts."""

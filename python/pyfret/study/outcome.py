@@ -16,7 +16,7 @@ from pyfret._util.lazy import xr
 from pyfret._util.numbers import format_number
 from pyfret._util.per_metre import PER_METRE, of_line_contacts
 from pyfret._util.text import html, shown
-from pyfret._util.window import format_table
+from pyfret._util.window import format_table, wrap
 from pyfret.quantities import quantities
 from pyfret.saveable import Saveable
 from pyfret.scene.tables import table
@@ -207,7 +207,7 @@ class Study(Saveable, Labelled, Figured):
                 f"{name} = {format_number(value)}" for name, value in values.items()
             )
             lines.append(f"failed at {position}: {' '.join(why.split())}")
-        return shown("\n".join(lines))
+        return wrap(shown("\n".join(lines)))
 
     def _spans(self) -> list[tuple[str, str, str, str]]:
         """Return kind, name, range and unit of every parameter and measure."""

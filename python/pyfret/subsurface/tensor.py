@@ -14,6 +14,7 @@ from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.numbers import layer_index, layer_name, length
 from pyfret._util.scene_warnings import warn
+from pyfret._util.window import wrap
 from pyfret.quantities import quantities
 from pyfret.scene.tables import table
 from pyfret.subsurface.extremum import Errors, Extremum, Place
@@ -132,7 +133,7 @@ class Stress(Labelled, Figured):
                 if axis in ("x", "y", "z", "s")
             )
             lines.append(f"{name:11s} {1e-6 * float(largest):10.4g} MPa at {position}")
-        return "\n".join(lines)
+        return wrap("\n".join(lines))
 
     def _draw(self, *args: Any, **options: Any) -> Any:
         """Draw the map of a section, or on a line below a point the curves over the depth."""

@@ -15,6 +15,7 @@ from pyfret._util.numbers import length, um
 from pyfret._util.tables import as_table
 from pyfret._util.text import shown
 from pyfret._util.toml import parse_toml
+from pyfret._util.window import wrap
 from pyfret.quantities import FrictionCoefficient, Length, as_number, quantities
 from pyfret.run.loops import NO_FRICTION, frictionless, loops_of_corners
 from pyfret.saveable import Saveable
@@ -284,9 +285,10 @@ class WearResult(Saveable, Labelled, Figured):
         d = self.dataset
         last = {name: float(d[name][-1]) for name in d.data_vars if d[name].dims == ("jump",)}
         volume, energy = (d[name].attrs["units"] for name in ("volume1", "dissipated"))
+        jumps = d.sizes["jump"]
         lines = [
             str(d.attrs.get("title") or "wear"),
-            f"{float(d.cycles[-1]):.6g} cycles in {d.sizes['jump']} jumps, status: "
+            f"{float(d.cycles[-1]):.6g} cycles in {jumps} jump{'s' * (jumps != 1)}, status: "
             f"{d.attrs['status']}",
         ]
         for body in (1, 2):
@@ -335,7 +337,7 @@ class WearResult(Saveable, Labelled, Figured):
         method = str(d.attrs.get("method", ""))
         lines += [f"method: {method}"] if method else []
         lines += [f"warning: {doubt}" for doubt in self.doubts]
-        return shown("\n".join(lines))
+        return wrap(shown("\n".join(lines)))
 
     def _format_largest_pressure(self, jump: int) -> str:
         """Format the largest pressure after a jump and its error, or why it has none."""
