@@ -134,8 +134,8 @@ def of_page(repeat: int, _: int) -> list[tuple[str, Cost, float]]:
     def changed() -> fret.Scene:
         return scene.replace({"friction.mu": next(changes)})
 
-    preview(changed(), names, None)
-    first = measure(lambda: preview(changed(), names, None), repeat)
+    preview(changed(), None)
+    first = measure(lambda: preview(changed(), None), repeat)
     full = measure(lambda: answer_in_full(changed(), names), repeat)
     return [
         (f"preview of the page, {FEW} cells", first, float("nan")),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -137,6 +138,27 @@ def test_the_page_evaluates_one_section(
     result.report(tmp_path / "page.html")
     assert len(sections) == len(solutions) == 1
     assert answer.result is result
+
+
+def test_threads_share_the_preview_that_one_of_them_solves(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(page, "PREVIEWS", page.Recent())
+    solutions = counted(monkeypatch, page, "solve", lambda *_, **options: options)
+    scene = ball()
+    with ThreadPoolExecutor(3) as threads:
+        answers = list(threads.map(lambda _: page.preview(scene, None), range(3)))
+    assert len(solutions) == 1
+    assert all(answer is answers[0] for answer in answers)
+
+
+def test_a_refusal_is_not_kept() -> None:
+    recent: page.Recent[int] = page.Recent()
+
+    def refuse() -> int:
+        raise ValueError("no answer")
+
+    with pytest.raises(ValueError, match="no answer"):
+        recent.fetch("key", refuse)
+    assert recent.fetch("key", lambda: 1) == 1
 
 
 def test_life_and_yield_of_the_page_share_the_cycle(

@@ -288,7 +288,7 @@ def test_differences_count_beyond_both_errors() -> None:
 @pytest.mark.solves
 def test_a_preview_is_near_the_full_answer_and_that_is_the_one_of_python() -> None:
     scene, names = make_preset(FIRST)
-    early, full = preview(scene, names, None), answer_in_full(scene, names)
+    early, full = preview(scene, None), answer_in_full(scene, names)
     result = fret.solve(scene, error=True, save="all", progress=False)
     values = {number.name: number for number in full.numbers}
     assert values["largest pressure"].value == 1e-6 * float(result.p_max[-1])

@@ -34,7 +34,6 @@ from pyfret.wear.runs import solve as wear_off
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    import xarray as xr
     from numpy.typing import NDArray
 
     from pyfret._core import Body, Friction
@@ -367,7 +366,7 @@ def _box(scene: Scene) -> tuple[float, float] | None:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            result = solve(scene, progress=False, save="branches")
+            fields, _ = _core.solve_in_memory(scene.replace(save="branches"))
     except OffGridError:
         return None
     except InvalidSceneError as error:
@@ -376,18 +375,22 @@ def _box(scene: Scene) -> tuple[float, float] | None:
         if "cells across" in str(error):
             return 0.0, 0.0
         raise
-    d = result.dataset
-    contact = (d.p > 0).any("saved").values
+    p, x, y = (np.asarray(fields[name][1]) for name in ("p", "x", "y"))
+    contact: NDArray[np.bool_] = np.any(p > 0, axis=0)
     if not contact.any():
         return 0.0, 0.0
-    return _reach(contact, d, scene.grid)
+    return _reach(contact, (x, y), scene.grid)
 
 
-def _reach(touched: NDArray[np.bool_], d: xr.Dataset, grid: Grid) -> tuple[float, float]:
+def _reach(
+    touched: NDArray[np.bool_],
+    places_of_cells: tuple[NDArray[np.float64], NDArray[np.float64]],
+    grid: Grid,
+) -> tuple[float, float]:
     """Return twice the reach of touched cells from the middle of a grid, along x and y [m]."""
     reach = []
-    for name, axis, cell in (("x", 1, grid.dx), ("y", 0, grid.dy)):
-        places = np.abs(d[name].values[touched.any(axis=axis)])
+    for along, axis, cell in zip(places_of_cells, (1, 0), (grid.dx, grid.dy), strict=True):
+        places = np.abs(along[touched.any(axis=axis)])
         reach.append(2 * float(places.max()) + cell)
     return reach[0], reach[0] if grid.plane_strain else reach[1]
 
@@ -424,7 +427,7 @@ def _scar(
             continue
         d = worn.dataset
         touched = ((d.p > 0) | (d.worn1 > 0) | (d.worn2 > 0)).any("block").values
-        reach = _reach(touched, d, grid)
+        reach = _reach(touched, (d.x.values, d.y.values), grid)
         return reach if max(reach) < extent else (extent, extent)
     raise ValueError(
         f"the scar is longer than {extent / LONGER:.3g} m, {MOST_OF_TRIAL // IN_A_TRIAL} times the "

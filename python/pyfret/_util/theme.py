@@ -14,12 +14,15 @@ number (doi:10.5281/zenodo.1243862).
 from __future__ import annotations
 
 from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
 if TYPE_CHECKING:
     from matplotlib.colors import ListedColormap
+    from numpy.typing import NDArray
 
 __all__ = [
     "CATEGORIES",
@@ -80,19 +83,42 @@ DEFAULT_WIDTH, TEXT, TEXT_OF_COLUMNS = 5.2, 9.0, 7.5
 @cache
 def colour_map(kind: Kind) -> ListedColormap:
     """Return the map of colours of a kind of quantity."""
-    from cmcrameri import cm
     from matplotlib.colors import ListedColormap
 
+    return ListedColormap(colour_table(kind), name=f"pyfret_{kind}")
+
+
+@cache
+def colour_table(kind: Kind) -> NDArray[np.float64]:
+    """Return red, green and blue (0 to 1) of the 256 colours of a kind of quantity.
+
+    They are read from the tables of cmcrameri: its import takes as long as pyplot.
+    """
+    package = find_spec("cmcrameri")
+    if package is None or package.origin is None:
+        message = 'colours need cmcrameri: pip install "fretting[plot]"'
+        raise ModuleNotFoundError(message, name="cmcrameri")
     name, low, high = MAPS[kind]
-    return ListedColormap(getattr(cm, name)(np.linspace(low, high, 256)), name=f"pyfret_{kind}")
+    file = Path(package.origin).parent / "cmaps" / f"{name.removesuffix('_r')}.txt"
+    table: NDArray[np.float64] = np.loadtxt(file)
+    if name.endswith("_r"):
+        table = table[::-1]
+    return table[nearest_rows(np.linspace(low, high, 256), len(table))]
+
+
+def nearest_rows(parts: NDArray[np.float64], count: int) -> NDArray[np.intp]:
+    """Return the rows of a table of colours at parts (0 to 1) of its length."""
+    return np.minimum((parts * count).astype(np.intp), count - 1)
 
 
 def plotly_scale(kind: Kind, colours: int = 17) -> list[list[float | str]]:
     """Return the scale of colours of a kind of quantity for plotly."""
-    from matplotlib.colors import to_hex
-
-    shades = colour_map(kind)
-    return [[float(at), to_hex(shades(at))] for at in np.linspace(0.0, 1.0, colours)]
+    table, places = colour_table(kind), np.linspace(0.0, 1.0, colours)
+    rows = np.rint(255 * table[nearest_rows(places, len(table))]).astype(int)
+    return [
+        [float(at), "#" + "".join(f"{level:02x}" for level in row)]
+        for at, row in zip(places, rows, strict=True)
+    ]
 
 
 def settings(text: float = TEXT) -> dict[str, Any]:

@@ -7,6 +7,7 @@ import os
 import threading
 import warnings
 from collections import OrderedDict
+from concurrent.futures import Future
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
@@ -105,45 +106,32 @@ def quietly(action: Callable[[], Result]) -> Result:
         return action()
 
 
-def preview(scene: Scene, names: dict[str, str], counts: list[int] | None) -> PageAnswer:
-    """Solve a scene in few increments: a third of its neighbour's, or 4 in each branch.
-
-    The stress is the one on the section along the shear. Numbers are estimates.
-    """
-    branches = len(scene.path.branches)
-    if counts is None or len(counts) != branches:
-        counts = [LEAST] * branches
-    fewer = [max(LEAST, count // FEWER) for count in counts]
-    coarse = scene.replace(path=in_increments(scene.path, fewer), save="branches")
-    result = quietly(lambda: solve(coarse, progress=False))
-    below = stress_below(result)
-    numbers = scalars(result)
-    if below is not None:
-        largest = float(below.measure("von_mises").max()) / 1e6
-        numbers.append(number_with_error("largest von Mises stress", largest, None, "MPa"))
-    return PageAnswer(numbers, list(result.doubts), counts, result, below)
-
-
 class Recent(Generic[T]):
     """The last values, by keys of text: each is computed once for several tabs."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._kept: OrderedDict[str, T] = OrderedDict()
+        self._kept: OrderedDict[str, Future[T]] = OrderedDict()
 
     def fetch(self, key: str, compute: Callable[[], T]) -> T:
-        """Return the value with a key, computed where it is not kept."""
+        """Return the value with a key: kept, computed by another thread, or computed here."""
         with self._lock:
-            if key in self._kept:
-                self._kept.move_to_end(key)
-                return self._kept[key]
-        value = compute()
-        with self._lock:
-            self._kept[key] = value
+            future = self._kept.get(key)
+            is_first = future is None
+            if future is None:
+                future = self._kept[key] = Future()
+            self._kept.move_to_end(key)
             while len(self._kept) > KEPT:
                 self._kept.popitem(last=False)
-        return_free_memory()
-        return value
+        if is_first:
+            try:
+                future.set_result(compute())
+            except BaseException as error:
+                with self._lock:
+                    self._kept.pop(key, None)
+                future.set_exception(error)
+            return_free_memory()
+        return future.result()
 
 
 def return_free_memory() -> None:
@@ -153,9 +141,34 @@ def return_free_memory() -> None:
         trim(0)
 
 
-#: Results by the text of their scenes, answers by the names of the materials as well.
+#: Previews by scenes and increments, results by scenes, answers by names of materials as well.
+PREVIEWS: Recent[PageAnswer] = Recent()
 RESULTS: Recent[Result] = Recent()
 ANSWERS: Recent[PageAnswer] = Recent()
+
+
+def preview(scene: Scene, counts: list[int] | None) -> PageAnswer:
+    """Solve a scene in few increments: a third of its neighbour's, or 4 in each branch.
+
+    The stress is the one on the section along the shear. Numbers are estimates.
+    """
+    branches = len(scene.path.branches)
+    if counts is None or len(counts) != branches:
+        counts = [LEAST] * branches
+    fewer = [max(LEAST, count // FEWER) for count in counts]
+    coarse = scene.replace(path=in_increments(scene.path, fewer), save="branches")
+    return PREVIEWS.fetch(coarse.to_toml(), lambda: make_preview(coarse, counts))
+
+
+def make_preview(coarse: Scene, counts: list[int]) -> PageAnswer:
+    """Make the numbers of a scene in few increments."""
+    result = quietly(lambda: solve(coarse, progress=False))
+    below = stress_below(result)
+    numbers = scalars(result)
+    if below is not None:
+        largest = float(below.measure("von_mises").max()) / 1e6
+        numbers.append(number_with_error("largest von Mises stress", largest, None, "MPa"))
+    return PageAnswer(numbers, list(result.doubts), counts, result, below)
 
 
 def solve_in_full(scene: Scene) -> Result:

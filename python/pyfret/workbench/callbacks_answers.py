@@ -98,7 +98,7 @@ def connect_answers(app: Any, sessions: Sessions, jobs: Jobs) -> None:
         names = names_of(scene, names)
         sessions.want(session, scene.to_toml())
         try:
-            answer = preview(scene, names, counts)
+            answer = preview(scene, counts)
         except REFUSALS as error:
             return [*refused(scene, error), packed]
         increments = answer.result.dataset.sizes["increment"]

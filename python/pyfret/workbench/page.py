@@ -8,13 +8,16 @@ their scenes. Panel and NiceGUI hold a session in the server for each browser in
 from __future__ import annotations
 
 import os
+from contextlib import suppress
 from pathlib import Path
+from threading import Thread
 from typing import TYPE_CHECKING, Any
 
 from pyfret._core import Scene
 from pyfret._util.extras import needed
 from pyfret.quantities import quantities
 from pyfret.solution import read
+from pyfret.workbench.answers import REFUSALS, preview
 from pyfret.workbench.callbacks import connect
 from pyfret.workbench.file_views import read_dropped_scene
 from pyfret.workbench.jobs import Jobs
@@ -111,7 +114,15 @@ def serve(
     app = application(packed, token, sessions, jobs, measured)
     page = Page(app, port, token, folder)
     page.at_stop(jobs.stop)
+    # The first preview, and what it imports, while the browser loads the page.
+    Thread(target=answer_first, args=(scene,), daemon=True, name="first preview").start()
     return page
+
+
+def answer_first(scene: Scene) -> None:
+    """Solve the first preview; the page shows its refusal, where there is one."""
+    with suppress(*REFUSALS):
+        preview(scene, None)
 
 
 def application(
