@@ -19,7 +19,7 @@ from pyfret.scene.maps import (
     summarize_map,
     write_heights,
 )
-from pyfret.scene.tables import scene_html, summarize_scene
+from pyfret.scene.tables import path_html, scene_html, summarize_scene
 from pyfret.settings import Settings
 
 if TYPE_CHECKING:
@@ -38,6 +38,7 @@ __all__ = [
     "hardness_from",
     "level",
     "missing_attribute",
+    "path_html",
     "pitch",
     "plain",
     "resample",

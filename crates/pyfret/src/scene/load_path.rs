@@ -10,6 +10,7 @@ use super::increments::{Count, Values, Visited};
 use crate::error::Answer;
 use crate::hints::Numbers;
 use crate::prelude::*;
+use crate::python::from_python;
 
 /// The load history, from two bodies just touching.
 ///
@@ -362,8 +363,7 @@ impl LoadPath {
     }
 
     fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        let tables = slf.py().import("pyfret.scene.tables")?;
-        tables.call_method1("path_html", (slf,))
+        from_python(slf.py(), "path_html")?.call1((slf,))
     }
 
     pub(crate) fn __repr__(&self) -> String {
