@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import importlib
+import re
 from collections.abc import Callable
 from pathlib import Path
 
 import matplotlib.pyplot as plt
+import numpy as np
 import pytest
 from xarray import Dataset
 
@@ -297,3 +299,59 @@ def test_a_hardness_is_a_number_with_a_unit_or_a_material() -> None:
     assert fret.Body(steel, hardness=3.5e9).hardness == pytest.approx(3.5e9)
     with pytest.raises(ValueError, match="must be a number in Pa"):
         fret.Body(steel, hardness="3 m")
+
+
+#: Words of people for the stiffness of a rig.
+OF_RIGS = ("spring", "compliance", "rig_compliance", "machine_stiffness")
+
+
+@pytest.mark.parametrize("word", OF_RIGS)
+@pytest.mark.parametrize(
+    "call",
+    [
+        *(getattr(fret.fit, name) for name in fret.fit.__all__ if name.startswith("read_")),
+        *(fret.fit.Loops.from_arrays, fret.fit.Indentation.from_arrays, fret.fit.Scar.from_arrays),
+        *(fret.fit.fit, fret.solve, fret.study.run, fret.compare, fret.wear.Wear, fret.Scene),
+        *(fret.Scene.ball_on_flat, fret.Scene.cylinder_on_flat, fret.Scene.rough_on_flat),
+        *(fret.Scene.flat_pad, fret.Scene.crossed_cylinders, fret.LoadPath.start),
+    ],
+)
+def test_a_word_for_the_rig_is_answered_with_its_argument(
+    call: Callable[..., object], word: str
+) -> None:
+    with pytest.raises(TypeError, match=r"rig\.stiffness|'?rig_stiffness'?|frame=True"):
+        call(**{word: 1e7})
+
+
+def test_a_known_rig_is_set_as_a_refusal_says(result: fret.Result) -> None:
+    scene = result.scene.replace(path=PRESSED.tangential([90.0], increments=2))
+    assert scene.replace({"rig.stiffness": 9e6}).path.rig_stiffness == 9e6
+
+
+def test_a_result_counts_what_it_goes_through(result: fret.Result) -> None:
+    assert len(result) == len(list(result)) == result.dataset.sizes["saved"]
+    assert bool(result)
+    assert len(result.path) == result.dataset.sizes["increment"]
+
+
+@pytest.mark.parametrize("word", ["branch", "cycle", "increment", "index", "time"])
+def test_a_place_in_the_history_is_asked_for_as_a_refusal_says(
+    result: fret.Result, word: str
+) -> None:
+    with pytest.raises(TypeError, match=rf"no argument '{word}': .*result\.at\(") as refused:
+        result.at(**{word: 1})
+    for said in re.findall(r"result\.at\([-\d]+\)|result\.at\(t=float.*?\)\)", str(refused.value)):
+        for n in range(len(result.branches().t)):
+            computed = eval(said, {"result": result, "n": n})
+            assert computed.scene == result.scene
+            if "branches" in said:
+                ends = result.branches()
+                np.testing.assert_allclose(computed.T_x, ends.T_x[n], rtol=1e-12)
+
+
+def test_a_method_is_named_with_what_it_needs() -> None:
+    answers = fret.study.Comparison(Dataset(), {}, {})
+    with pytest.raises(AttributeError, match=r"it is called preference\(of\)"):
+        _ = answers.best
+    with pytest.raises(TypeError, match="preference needs of"):
+        answers.preference()  # type: ignore[call-arg]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from pyfret._util.keywords import nearest_names
@@ -56,6 +57,8 @@ TABLE = {
     **dict.fromkeys(("density", "rho"), "density"),
     **dict.fromkeys(("fatigue_limit", "endurance_limit", "s_d"), "s_D"),
 }
+#: Kinds of parameters that a call needs if they have no default.
+NEEDED = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
 #: Dimensions of a dataset that are coordinates of points.
 PLACES = ("x", "y", "s", "z", "depth")
 
@@ -119,8 +122,20 @@ def missing_attribute(self: Any, name: str, elsewhere: Mapping[str, str] | None 
         raise attribute_error(kind.__name__, name, public, {name: hint})
     # A word for a method of its own comes before another way to write or draw the whole.
     outputs = {k: call for k, call in output_calls(kind).items() if not meant(k, sorted(public))}
-    where = {**outputs, **(elsewhere or {})}
+    synonyms = [call_of(kind, synonym) for synonym in meant(name, sorted(public))]
+    called = {name: f"it is called {' and '.join(synonyms)}"} if synonyms else {}
+    where = {**outputs, **called, **(elsewhere or {})}
     raise attribute_error(kind.__name__, name, public, where)
+
+
+def call_of(kind: type, name: str) -> str:
+    """Return a method with what it needs, ``preference(of)``, or the name of a property."""
+    method = inspect.getattr_static(kind, name, None)
+    if not callable(method):
+        return name
+    _, *parameters = inspect.signature(method).parameters.values()
+    needed = [p.name for p in parameters if p.default is p.empty and p.kind in NEEDED]
+    return f"{name}({', '.join(needed)})"
 
 
 def output_calls(kind: type) -> dict[str, str]:

@@ -87,7 +87,11 @@ MEANT = {
     "delta_x": ("shift",),
     "t_x": ("T",),
     "friction_coefficient": ("friction", "mu"),
-    "compliance": ("stiffness",),
+    "compliance": ("stiffness", "rig_stiffness"),
+    "stiffness": ("rig_stiffness",),
+    **dict.fromkeys(
+        ("rig", "machine_stiffness", "rig_compliance", "system_stiffness"), ("rig_stiffness",)
+    ),
     "secant_stiffness": ("stiffness",),
     "hysteresis": ("loops",),
     "loop": ("loops",),
@@ -224,7 +228,7 @@ MEANT = {
     "update": ("replace",),
     "material": ("substrate", "materials"),
     "winner": ("preference",),
-    "spring": ("unknown",),
+    "spring": ("rig_stiffness", "stiffness"),
     "results": ("dataset", "to_dataframe"),
     "df": ("to_dataframe",),
     "frame": ("to_dataframe",),

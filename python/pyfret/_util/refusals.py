@@ -94,7 +94,8 @@ def name_missing(call: Callable[..., Any], name: str, error: Exception) -> TypeE
 
 def first_clause(text: str) -> str:
     """Return the first sentence of a text, without what follows a colon and without an example."""
-    sentence = re.split(r"[.:;](?:\s|$)", " ".join(text.split()), maxsplit=1)[0]
+    plain = re.sub(r":\w+:(`\w+`)", r"\1", " ".join(text.split()))
+    sentence = re.split(r"[.:;](?:\s|$)", plain, maxsplit=1)[0]
     return re.split(r",? such as\b", sentence, maxsplit=1)[0]
 
 

@@ -133,6 +133,14 @@ class Run(OfRun):
         """Go through the increments whose fields were kept, the first one first."""
         return (self.at(int(number)) for number in self.dataset.saved_increment.values)
 
+    def __len__(self) -> int:
+        """Count the increments whose fields were kept; ``len(result.path)`` counts all."""
+        return int(self.dataset.saved_increment.size)
+
+    def __bool__(self) -> bool:
+        """Whether there is a result: always, whatever was kept."""
+        return True
+
     def __dir__(self) -> list[str]:
         """The names of the class, and the scalars of every increment."""
         scalars = [str(k) for k, v in self.dataset.variables.items() if v.dims == ("increment",)]

@@ -20,6 +20,7 @@ from pyfret._util.numbers import in_letters, in_words, length
 from pyfret._util.page import svg_image, write_page
 from pyfret._util.window import format_table, wrap
 from pyfret.fatigue.ranges import Range
+from pyfret.quantities import quantities
 from pyfret.scene.tables import table
 from pyfret.study.point import FAILED, PARTLY
 from pyfret.study.questions import NUMBERS, Number
@@ -176,12 +177,18 @@ class Comparison(Labelled, Figured):
         """Names of the numbers that at least one candidate has."""
         return [name for name in NUMBERS if name in self.dataset]
 
+    @quantities
     def preference(self, of: str) -> Preference:
         """Return the best candidates by a number, and the worse ones beyond the errors.
 
         A candidate is worse where its range does not overlap with the range of the best one. There
         is no best stress in different materials, since each of them has a strength of its own.
         ``ended`` names the best ones of whose wear only a bound is known: their run ended early.
+
+        Parameters
+        ----------
+        of : str
+            One of :attr:`numbers`, such as ``"energy"``.
 
         Raises
         ------

@@ -1,0 +1,55 @@
+"""Keywords that are no arguments of a call, and what says the same elsewhere."""
+
+from __future__ import annotations
+
+__all__ = ["SAID_ELSEWHERE"]
+
+#: Words for what is elastic between a contact and the gauge of its rig.
+RIG = (
+    *("compliance", "frame", "rig", "spring", "stiffness", "k_rig"),
+    *(
+        f"{part}_{elasticity}"
+        for part in ("frame", "machine", "rig", "spring", "system", "tangential")
+        for elasticity in ("compliance", "stiffness")
+    ),
+)
+UNKNOWN = 'unknown={"rig.stiffness": (1e6, 1e8)}'
+KNOWN = 'in N/m; a known one belongs to the scene, scene.replace({"rig.stiffness": 9e6})'
+IN_SCENE = 'the rig is path.rig("9 N/um"), or scene.replace({"rig.stiffness": 9e6})'
+#: Calls that take a scene or its parts, and leave the rig to the path.
+WITH_SCENE = (
+    *("Scene", "Scene.replace", "march", "resume", "compare", "threshold", "LoadPath.start"),
+    *("ball_on_flat", "cylinder_on_flat", "crossed_cylinders", "flat_pad", "rough_on_flat"),
+    *("LoadPath.force", "LoadPath.normal", "LoadPath.tangential", "LoadPath.cycles"),
+)
+
+#: What says the same as a keyword that a call does not take, by call and keyword.
+SAID_ELSEWHERE: dict[str, dict[str, str]] = {
+    "fit": dict.fromkeys(RIG, f"the stiffness of the rig is {UNKNOWN}, {KNOWN}"),
+    **dict.fromkeys(
+        ("read_loops", "Loops.from_arrays"),
+        dict.fromkeys(RIG, f"it is found by fret.fit(scene, loops, {UNKNOWN}), {KNOWN}"),
+    ),
+    **dict.fromkeys(
+        ("read_indentation", "Indentation.from_arrays"),
+        dict.fromkeys(RIG, "frame=True makes the compliance of the frame an unknown"),
+    ),
+    **dict.fromkeys(
+        ("read_scar", "Scar.from_arrays", "read_lives"),
+        dict.fromkeys(RIG, 'it belongs to the run of wear, wear={"rig_stiffness": 9e6, ...}'),
+    ),
+    **dict.fromkeys(WITH_SCENE, dict.fromkeys(RIG, IN_SCENE)),
+    "run": dict.fromkeys(RIG, 'it is a parameter of the study, {"rig.stiffness": [1e6, 1e8]}'),
+    "Result.at": {
+        **dict.fromkeys(
+            ("branch", "cycle", "loop"),
+            "branch n ends at result.at(t=float(result.branches().t[n])); result.loops() has the "
+            "last_branch of each cycle",
+        ),
+        **dict.fromkeys(
+            ("frame", "i", "increment", "index", "k", "n", "number", "step"),
+            "result.at(3) is the third increment, result.at(-1) the last that kept its fields",
+        ),
+        **dict.fromkeys(("time", "instant"), "result.at(t=1.5) is a time of the path"),
+    },
+}
