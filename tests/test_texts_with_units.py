@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import ast
 import dataclasses
 import importlib
 import inspect
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from decimal import Decimal
 from pathlib import Path
 from types import FunctionType
@@ -17,6 +18,7 @@ import pytest
 
 import pyfret as fret
 from pyfret import _core
+from pyfret._util import compiled
 from pyfret._util.parameter import Signature
 from test_types import annotation_in_stub
 
@@ -72,9 +74,109 @@ def test_every_number_takes_a_text_with_its_unit_or_says_what_to_write(
     assert refused > 60
 
 
+def test_every_array_takes_texts_with_units_or_says_what_to_write(
+    public: Any, record_property: Callable[[str, object], None]
+) -> None:
+    """All parameters that take several numbers, of all public callables."""
+    taken, wrong = 0, []
+    for name, call in public.public():
+        # A constructor of data that were measured does not read them.
+        if name in public.LEFT_OUT or name.startswith(LEFT_OUT[1:]):
+            continue
+        computed = public.good(name, call)
+        rows = {} if computed is None else computed[0]
+        rows = {key: value for key, value in rows.items() if is_row(value)}
+        if computed is None or not rows or not accepted(public, call, computed[0]):
+            continue
+        for key, value in rows.items():
+            measured = _core.measured_by(f"{name}.{key}") or measured_by_type(call, key)
+            unit = measured[1] if measured and measured[1] else "um"
+            texts = [f"{float(number)!r} {unit}" for number in value]
+            options = computed[0] | {key: tuple(texts) if isinstance(value, tuple) else texts}
+            try:
+                public.invoked(call, options)
+                taken += 1
+            except Exception as error:
+                if not re.search("write |must be|exists", str(error)):
+                    wrong.append(f"{name}({key}): {type(error).__name__}: {error!s:.200}")
+    record_property("taken", taken)
+    assert not wrong, "\n".join(wrong)
+    assert taken > 20
+
+
+def is_row(value: Any) -> bool:
+    """Whether a value is a row of a few numbers."""
+    if not isinstance(value, (list, tuple, np.ndarray)) or not 0 < len(value) < 200:
+        return False
+    return all(type(number) in (float, int, np.float64) for number in value)
+
+
+def test_every_array_of_the_closed_forms_takes_texts() -> None:
+    """The table of the arrays is that of the signatures."""
+    stub = ast.parse(Path(fret.__file__).with_name("_core.pyi").read_text(encoding="utf-8"))
+    arrays: dict[str, set[str]] = {}
+    for kind in stub.body:
+        if isinstance(kind, ast.ClassDef) and kind.name in fret.reference.__all__:
+            for method in (member for member in kind.body if isinstance(member, ast.FunctionDef)):
+                for argument in (*method.args.args, *method.args.kwonlyargs):
+                    if isinstance(argument.annotation, ast.Name) and (
+                        argument.annotation.id == "ArrayLike"
+                    ):
+                        arrays.setdefault(f"{kind.name}.{method.name}", set()).add(argument.arg)
+    assert {name: set(keys) for name, keys in compiled.ARRAYS.items()} == arrays
+    ball = fret.reference.hertz(R=5e-3, bodies=(STEEL, STEEL), W=20.0)
+    slip = fret.reference.CattaneoMindlin(ball, bodies=(STEEL, STEEL), mu=0.5)
+    shifts = slip.shift_loading([3.0, 7.0])
+    for loads in (["3 N", "7 N"], ("3000 mN", 7.0), [["3 N", "0.007 kN"]]):
+        np.testing.assert_allclose(np.ravel(slip.shift_loading(loads)), shifts, rtol=1e-15)
+    assert slip.shift_loading(T="7 N") == shifts[1]
+    with pytest.raises(ValueError, match=r'T = "7 um": must be a number in N'):
+        slip.shift_loading("7 um")
+
+
+#: Numbers with a unit that the table of quantities does not have, or that several share.
+NO_QUANTITY = {
+    *("wear.Air", "wear.DissipatedEnergy", "wear.WearResult.cycles_to"),
+}
+#: Units of quantities, as descriptions of parameters give them.
+WITH_UNIT = re.compile(r"\[(m|Pa|N|N/m|rad|Hz)\]")
+
+
+def test_every_number_that_is_described_with_a_unit_is_a_quantity(public: Any) -> None:
+    """Of all public callables and figures."""
+    figures = [(f"plot.{name}", getattr(fret.plot, name)) for name in fret.plot.__all__]
+    wrong, count = [], 0
+    for name, call in [*public.public(), *figures]:
+        documentation = inspect.getdoc(call) or ""
+        if name in NO_QUANTITY or not WITH_UNIT.search(documentation):
+            continue
+        for key, parameter in parameters_of(call).items():
+            entry = re.search(
+                rf"^(?:\w+, )*{key}\b[\w, ]*(?: :.*)?\n( +)(.*(?:\n\1.*)*)", documentation, re.M
+            )
+            if entry is None or not WITH_UNIT.search(entry[2]):
+                continue
+            count += 1
+            if re.fullmatch(r"float( \| None)?", str(parameter.annotation)):
+                wrong.append(f"{name}({key})")
+    assert not wrong, wrong
+    assert count > 100
+
+
+def parameters_of(call: Any) -> Mapping[str, inspect.Parameter]:
+    """Parameters of a callable; none of the compiled criteria, which have no signature."""
+    try:
+        return inspect.signature(call).parameters
+    except ValueError:
+        return {}
+
+
 def measured_by_type(call: Any, key: str) -> tuple[str, str] | None:
     """Quantity and unit of a parameter by its type: its name may have no row."""
     call = getattr(call, "__func__", call)
+    arrays = compiled.ARRAYS.get(getattr(call, "__qualname__", ""), {})
+    if key in arrays:
+        return arrays[key]
     if isinstance(call, type) and dataclasses.is_dataclass(call):
         of_part = inspect.unwrap(call.__init__)
         rules = Signature(of_part, call).rules

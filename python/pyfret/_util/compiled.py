@@ -20,10 +20,12 @@ from pyfret._util.refusals import refuse_clearly
 if TYPE_CHECKING:
     from types import ModuleType
 
-__all__ = ["guard", "register_materials"]
+__all__ = ["guard", "register_materials", "register_units"]
 
 #: The class that a constructor gets.
 CLASS = inspect.Parameter("cls", inspect.Parameter.POSITIONAL_ONLY)
+#: Ways of a load cycle in the closed forms.
+WAYS = ("loading", "reloading", "unloading")
 #: Parameters that are given by name.
 NAMED = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
 
@@ -68,7 +70,7 @@ def guard_methods(kind: type) -> None:
             continue
         name = f"{kind.__name__}.{key}"
         if isinstance(member, MethodDescriptorType):
-            setattr(kind, key, refusing(member, name))
+            setattr(kind, key, refusing(taking_units(member, name), name))
         elif isinstance(member, staticmethod):
             function = taking_materials(member.__func__)
             setattr(kind, key, staticmethod(refusing(function, name)))
@@ -153,6 +155,54 @@ def read_materials(read: Callable[[Any, str], Any], value: Any, name: str) -> An
 def register_materials(read: Callable[[Any, str], Any]) -> None:
     """Enter the function that reads a material by its name, from a value and its parameter."""
     MATERIAL_READERS[:] = [read]
+
+
+LENGTH, FORCE = ("length", "m"), ("load of a closed form", "N")
+#: Arrays of quantities among the parameters of methods, with their quantity and unit: they take
+#: texts with units, too. A test compares them with the signatures.
+ARRAYS: dict[str, dict[str, tuple[str, str]]] = {
+    **{f"CattaneoMindlin.q_{way}": {"r": LENGTH} for way in WAYS},
+    **{f"CattaneoMindlin.shift_{way}": {"T": FORCE} for way in WAYS},
+    **{name: {"r": LENGTH} for name in ("CoatedIndentation.p", "Hertz.p", "Lubkin.q")},
+    **{f"HertzStress.{name}": dict.fromkeys("xyz", LENGTH) for name in ("pressure", "shear")},
+    **{f"LineContact.{name}": {"x": LENGTH} for name in "pq"},
+    "LineContact.stress": dict.fromkeys("xz", LENGTH),
+    **{f"Lubkin.{name}": {"c": LENGTH} for name in ("M_z", "phi")},
+}
+#: The function that reads an array of quantities: one, once the package is imported.
+UNIT_READERS: list[Callable[[str, Any, str, str], Any]] = []
+
+
+def taking_units(call: Callable[..., Any], name: str) -> Callable[..., Any]:
+    """Return a method whose arrays of quantities may be texts with units, or the method itself."""
+    arrays = ARRAYS.get(name)
+    if arrays is None:
+        return call
+    # The places begin behind the object.
+    places = {key: place for place, key in enumerate(inspect.signature(call).parameters)}
+
+    @functools.wraps(call)
+    def with_units(*values: Any, **keywords: Any) -> Any:
+        for key, unit in arrays.items():
+            if key in keywords:
+                keywords = {**keywords, key: in_si(key, keywords[key], unit)}
+            elif (at := places[key]) < len(values):
+                values = (*values[:at], in_si(key, values[at], unit), *values[at + 1 :])
+        return call(*values, **keywords)
+
+    return with_units
+
+
+def in_si(name: str, value: Any, unit: tuple[str, str]) -> Any:
+    """Return a value or a list with numbers in SI units in place of texts and quantities."""
+    for read in UNIT_READERS:
+        value = read(name, value, *unit)
+    return value
+
+
+def register_units(read: Callable[[str, Any, str, str], Any]) -> None:
+    """Enter the function that reads an array, from its name, value, quantity and unit."""
+    UNIT_READERS[:] = [read]
 
 
 def refuse_construction(kind: type, members: list[str]) -> None:

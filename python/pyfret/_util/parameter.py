@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pyfret import _core
 from pyfret._util.arrays import contains_booleans, items, numbers
+from pyfret._util.compiled import register_units
 from pyfret._util.hints import Named, Options, members, read_hints
 from pyfret._util.material_names import read_material
 from pyfret._util.scene_warnings import sizes, warn
@@ -282,7 +283,8 @@ class Parameter:
     def convert(self, value: Any) -> Any:
         """Convert a text with a unit, or a quantity of pint, to SI."""
         if self.number in ("array", "several", "other") and type(value) in (list, tuple):
-            if any(isinstance(item, str) or has_unit(item) for item in value):
+            rows = (str,) if self.layers else (str, list, tuple)
+            if any(isinstance(item, rows) or has_unit(item) for item in value):
                 return type(value)(map(self.convert, value))
             return value
         text = isinstance(value, str) and any(map(str.isdigit, value))
@@ -439,6 +441,14 @@ def leaf(hint: Any) -> str:
     if "number" in inner:
         return "several" if origin is Sequence else "counts"
     return "counts" if "count" in inner else "object"
+
+
+def read_array(name: str, value: Any, quantity: str, si: str) -> Any:
+    """Return an array of quantities with numbers in SI units in place of texts and quantities."""
+    return Parameter(name, Annotated[ArrayLike, Unit(quantity, si)], None).convert(value)
+
+
+register_units(read_array)
 
 
 class Signature:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from pyfret import reference
 from pyfret import wear as wearing
 from pyfret._core import Body, Coating, Cylinder, Elastic, Grid, LoadPath, Scene, Sphere
-from pyfret.quantities import FrictionCoefficient, quantities
+from pyfret.quantities import FrictionCoefficient, Length, LineForce, as_number, quantities
 from pyfret.shapes import FlatPunch
 
 if TYPE_CHECKING:
@@ -172,7 +172,7 @@ def bed_half_width(R: float, area: float, cycles: float, transport: float) -> fl
 
 @quantities
 def fouvry2007(
-    coating: str = "TiC", *, slip: float = 75e-6, mu: FrictionCoefficient = 0.45
+    coating: str = "TiC", *, slip: Length = 75e-6, mu: FrictionCoefficient = 0.45
 ) -> Experiment:
     """Alumina ball on a hard coating in gross slip, 100 N: S. Fouvry, C. Paulin, T. Liskiewicz.
 
@@ -184,7 +184,7 @@ def fouvry2007(
         Amplitude of the slip [m] and coefficient of friction: the values of single tests are not
         in the tables. Depth over energy hardly depends on either.
     """
-    row = row_of("fouvry2007_coatings", "coating", coating)
+    row, slip = row_of("fouvry2007_coatings", "coating", coating), as_number(slip)
     nu = 0.2 if row["nu"] is None else row["nu"]
     layer = Coating(Elastic(E=row["E_Pa"], nu=nu), thickness=row["thickness_m"])
     scene = Scene(
@@ -364,7 +364,7 @@ def baydoun2019(n: int, *, third_body: bool = False) -> Experiment:
 
 
 @quantities
-def icf13(test: str, *, Q: float | None = None, n: int = 256) -> Experiment:
+def icf13(test: str, *, Q: LineForce | None = None, n: int = 256) -> Experiment:
     """Crack threshold of a steel cylinder on a flat in partial slip, with or without bulk stress.
 
     Parameters
@@ -379,7 +379,7 @@ def icf13(test: str, *, Q: float | None = None, n: int = 256) -> Experiment:
     row = row_of("icf13_952_thresholds", "test", test)
     steel = Elastic(E=205e9, nu=0.3)
     W, mu = row["W_N_per_m"], 0.8
-    amplitude = row["Q_threshold_N_per_m"] if Q is None else Q
+    amplitude = row["Q_threshold_N_per_m"] if Q is None else as_number(Q)
     most = row["sigma_bulk_max_Pa"]
     least = most * (row["R_bulk"] if row["R_bulk"] is not None else 1.0)
     a = reference.line_contact(R=row["R_m"], bodies=(steel, steel), W=W).a

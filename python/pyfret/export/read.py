@@ -12,7 +12,7 @@ from pyfret.export.dat import read_printed
 from pyfret.export.foreign import read_by_meshio, read_component_names
 from pyfret.export.frame import Frame
 from pyfret.export.frd import read_frd
-from pyfret.quantities import quantities
+from pyfret.quantities import Force, as_number, quantities
 
 if TYPE_CHECKING:
     import os
@@ -99,7 +99,7 @@ def bulk_stress(
 @quantities
 def compliance(
     path: str | os.PathLike[str],
-    force: float,
+    force: Force,
     *,
     frame: Frame | None = None,
     field: str = "displacement",
@@ -118,7 +118,7 @@ def compliance(
     frame, field, step
         As in :func:`bulk_stress`.
     """
-    frame = Frame() if frame is None else frame
+    frame, force = Frame() if frame is None else frame, as_number(force)
     if not np.isfinite(force) or force == 0.0:
         raise ValueError(f"force = {force}: must be a finite force other than zero, in N")
     source = Path(path)

@@ -4,18 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, TypedDict
+from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict
 
 import numpy as np
 
 from pyfret._core import Material
 from pyfret._util.arrays import items, plain
-from pyfret.quantities import Angle, InSI, LayerStresses, by_default, part
+from pyfret.quantities import Angle, InSI, LayerStresses, Length, by_default, part
 from pyfret.subsurface.line import Line
-
-if TYPE_CHECKING:
-    pass
-
 
 __all__ = ["Materials", "Section", "SectionOptions", "for_each_layer"]
 
@@ -25,11 +21,18 @@ __all__ = ["Materials", "Section", "SectionOptions", "for_each_layer"]
 Materials = Material | str | Sequence[Material | str | None]
 
 
+if TYPE_CHECKING:
+    Places: TypeAlias = Any
+else:
+    #: A place [m], or several.
+    Places = Length | Sequence[Length] | None
+
+
 class SectionOptions(TypedDict, total=False):
     """The fields of :class:`Section` as keywords of functions that judge a section."""
 
-    x: float | Sequence[float] | None
-    y: float | Sequence[float] | None
+    x: Length | Sequence[Length] | None
+    y: Length | Sequence[Length] | None
     azimuth: Angle | None
     body_number: int
     cycle: int | None
@@ -44,10 +47,10 @@ class Section:
     """
 
     #: The section along y at this x [m], or sections at several.
-    x: float | Sequence[float] | None = None
+    x: InSI[Places] = by_default(None)
     #: The section along x at this y [m], or sections at several (default: the section along the
     #: shear of the cycle, through the centre of its largest contact).
-    y: float | Sequence[float] | None = None
+    y: InSI[Places] = by_default(None)
     #: The section at this angle to the x axis [rad], through `x` and `y`.
     azimuth: InSI[Angle | None] = by_default(None)
     #: The upper body (1) or the lower one (2).
@@ -111,7 +114,7 @@ class Section:
         if self.azimuth is None:
             place = self.place
             return Line(*((place, None) if self.cross_axis == "x" else (None, place)))
-        return Line(self.x, self.y, self.azimuth)  # type: ignore[arg-type]
+        return Line(self.x, self.y, self.azimuth)
 
     def moved_below(self, line: Line) -> Section:
         """Return the section below a line."""

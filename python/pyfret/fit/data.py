@@ -21,10 +21,12 @@ from pyfret.quantities import (
     Force,
     Forces,
     InSI,
+    Length,
     Lengths,
+    MeasuredForces,
     MeasuredShifts,
-    Numbers,
     ScarPositions,
+    as_number,
     by_default,
     part,
     quantities,
@@ -117,11 +119,11 @@ class Loops(Measurement):
     }
 
     delta: MeasuredShifts
-    T: NDArray[np.float64]
+    T: MeasuredForces
     down: NDArray[np.bool_]
     cycle: NDArray[np.int64]
     W: InSI[Force | None] = by_default(None)
-    noise: float | None = None
+    noise: InSI[Force | None] = by_default(None)
     drift: tuple[float, float] = (0.0, 0.0)
     tilt: bool | None = None
     drifts: bool | None = None
@@ -202,11 +204,11 @@ class Loops(Measurement):
     @staticmethod
     @quantities
     def from_arrays(
-        delta: Numbers,
-        T: Numbers,
+        delta: Lengths,
+        T: Forces,
         *,
         W: Force | None = None,
-        noise: float | None = None,
+        noise: Force | None = None,
         tilt: bool | None = None,
         drift: bool | None = None,
         detrend: bool = False,
@@ -285,8 +287,7 @@ def _without_drift(
     return shift, force, find_turns(shift)
 
 
-@quantities
-@dataclass(frozen=True, eq=False, repr=False)
+@part(eq=False, repr=False)
 class Indentation(Measurement):
     """An indentation curve: approach [m] over normal force [N].
 
@@ -295,23 +296,23 @@ class Indentation(Measurement):
 
     columns: ClassVar = {"delta_z": ("m", "approach"), "W": ("N", "normal force")}
 
-    W: NDArray[np.float64]
+    W: MeasuredForces
     delta_z: MeasuredShifts
-    noise: float | None = None
+    noise: InSI[Length | None] = by_default(None)
     frame: bool = False
 
     @staticmethod
     @quantities
     def from_arrays(
-        W: Forces, delta_z: Lengths, *, noise: float | None = None, frame: bool = False
+        W: Forces, delta_z: Lengths, *, noise: Length | None = None, frame: bool = False
     ) -> Indentation:
         """A curve of points in any order; those without load or with a hole are left out.
 
-        ``frame`` as of :func:`indentation`.
+        ``frame`` as of :func:`read_indentation`.
         """
         force, approach = together(W=W, delta_z=delta_z, holes=True)
         loaded = force > 0
-        return Indentation(force[loaded], approach[loaded], noise, frame)
+        return Indentation(force[loaded], approach[loaded], as_number(noise), frame)
 
     def summary(self) -> str:
         """Describe the curve: points, largest force and approach."""
@@ -321,8 +322,7 @@ class Indentation(Measurement):
         )
 
 
-@quantities
-@dataclass(frozen=True, eq=False, repr=False)
+@part(eq=False, repr=False)
 class Scar(Measurement):
     """A worn profile along x at y = 0: depth [m] of a body, or of both with ``body_number=0``.
 
@@ -335,17 +335,17 @@ class Scar(Measurement):
     depth: MeasuredShifts
     wear: Mapping[str, Any]
     body_number: int = 2
-    noise: float | None = None
+    noise: InSI[Length | None] = by_default(None)
 
     @staticmethod
     @quantities
     def from_arrays(
-        x: Numbers,
+        x: Lengths,
         depth: Lengths,
         *,
         wear: Mapping[str, Any],
         body_number: int = 2,
-        noise: float | None = None,
+        noise: Length | None = None,
     ) -> Scar:
         """Make a profile of points; points with a missing value are left out."""
         positions, worn = together(x=x, depth=depth, holes=True)
@@ -369,8 +369,7 @@ class Scar(Measurement):
         )
 
 
-@quantities
-@dataclass(frozen=True, eq=False, repr=False)
+@part(eq=False, repr=False)
 class Lives(Measurement):
     """Cycles to the end of a coating in several tests.
 
@@ -434,7 +433,7 @@ def read_loops(
     skip: int = 0,
     group: str | None = None,
     W: Force | None = None,
-    noise: float | None = None,
+    noise: Force | None = None,
     tilt: bool | None = None,
     drift: bool | None = None,
     detrend: bool = False,
@@ -502,7 +501,7 @@ def read_indentation(
     units: dict[str, str] | None = None,
     skip: int = 0,
     group: str | None = None,
-    noise: float | None = None,
+    noise: Length | None = None,
     frame: bool = False,
 ) -> Indentation:
     """Read an indentation curve of a file, as :func:`read_loops`.
@@ -528,7 +527,7 @@ def read_scar(
     units: dict[str, str] | None = None,
     skip: int = 0,
     group: str | None = None,
-    noise: float | None = None,
+    noise: Length | None = None,
 ) -> Scar:
     """Read the profile of a scar of a file, depth downwards positive, as :func:`read_loops`."""
     table = read_columns(path, units, skip=skip, group=group)

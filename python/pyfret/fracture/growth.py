@@ -18,6 +18,7 @@ from pyfret._util.window import format_table, wrap
 from pyfret.fracture.arrest import CrackArrest, CrackLife
 from pyfret.quantities import (
     CrackGrowth,
+    CrackLengths,
     InSI,
     Length,
     Numbers,
@@ -34,7 +35,7 @@ from pyfret.subsurface.line import line_through_point
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import NDArray
 
     from pyfret._core import Material
     from pyfret.subsurface.line import Line
@@ -130,7 +131,8 @@ class Threshold:
         """El Haddad's length [m]; 0 for the constant threshold."""
         return _core.threshold_at(self._numbers(), [])[1]
 
-    def range_at(self, lengths: ArrayLike) -> NDArray[np.float64]:
+    @quantities
+    def range_at(self, lengths: CrackLengths) -> NDArray[np.float64]:
         """Return the threshold range of cracks of these lengths [m] at R = 0 [Pa m^0.5]."""
         lengths = plain(lengths, "lengths")
         dK, _ = _core.threshold_at(self._numbers(), lengths.ravel().tolist())
@@ -206,7 +208,8 @@ class Cracks(Saveable, Labelled, Figured):
     figure = "intensity"
 
     @classmethod
-    def from_arrays(cls, lengths: ArrayLike, K_max: ArrayLike, K_min: ArrayLike) -> Cracks:
+    @quantities
+    def from_arrays(cls, lengths: CrackLengths, K_max: Numbers, K_min: Numbers) -> Cracks:
         """Take the largest and the smallest K_I [Pa m^0.5] at lengths [m] from elsewhere."""
         at, largest, smallest = together(lengths=lengths, K_max=K_max, K_min=K_min)
         K = np.stack([largest, smallest])

@@ -16,7 +16,7 @@ from pyfret.plot.scales import Scales, Units, scales
 from pyfret.plot.sizes import Width, new_axes, new_panels
 from pyfret.plot.style import add_colour_bar, axes, mark, styled
 from pyfret.plot.tables import must_hold
-from pyfret.quantities import RelativeDepth
+from pyfret.quantities import Length, PeakPressure, Quantity, RelativeDepth
 from pyfret.subsurface.contact import stress_below
 from pyfret.subsurface.line import Line, line_of, main_line
 from pyfret.subsurface.tensor import Stress
@@ -58,7 +58,9 @@ SYMBOLS = {
 TOLD = 0.02
 
 
-def _scales(attrs: Mapping[Any, Any], units: Units, a_H: float | None, p_H: float | None) -> Scales:
+def _scales(
+    attrs: Mapping[Any, Any], units: Units, a_H: Quantity | None, p_H: Quantity | None
+) -> Scales:
     """Scales of a dataset, or those given."""
     yardsticks = {k: v for k, v in (("a_H", a_H), ("p_H", p_H)) if v is not None}
     return scales({**attrs, **yardsticks}, units)
@@ -128,8 +130,8 @@ def contour_levels(
 def section_map(
     values: xr.DataArray,
     *,
-    a_H: float | None = None,
-    p_H: float | None = None,
+    a_H: Length | None = None,
+    p_H: PeakPressure | None = None,
     units: Units = "auto",
     symbol: str | None = None,
     levels: int | Sequence[float] = 12,
@@ -147,7 +149,7 @@ def section_map(
     values : DataArray of dims (depth, x) or (depth, y)
         The field [Pa].
     a_H, p_H : float, optional
-        Yardsticks of length and stress (default: those among the attributes of the field).
+        Yardsticks of length [m] and stress [Pa] (default: those among the attributes of the field).
     units : "auto", "dimensionless" or "SI"
         Over the yardsticks (default where there are any), or in um and MPa.
     symbol : str, optional
@@ -209,8 +211,8 @@ def section_map(
 def stress_map(
     stress: Stress,
     *,
-    a_H: float | None = None,
-    p_H: float | None = None,
+    a_H: Length | None = None,
+    p_H: PeakPressure | None = None,
     units: Units = "auto",
     of: str = "von_mises",
     levels: int | Sequence[float] = 12,
@@ -278,8 +280,8 @@ def interface_curves(values: xr.DataArray, by: Scales, ax: Axes | None) -> Axes:
 def stress_along_depth(
     stress: Stress,
     *,
-    a_H: float | None = None,
-    p_H: float | None = None,
+    a_H: Length | None = None,
+    p_H: PeakPressure | None = None,
     units: Units = "auto",
     of: tuple[str, ...] = ("s_xx", "s_yy", "s_zz", "von_mises"),
     depth: DepthScale = "auto",
@@ -318,8 +320,8 @@ def stress_along_depth(
 def envelope_maps(
     envelope: xr.Dataset,
     *,
-    a_H: float | None = None,
-    p_H: float | None = None,
+    a_H: Length | None = None,
+    p_H: PeakPressure | None = None,
     units: Units = "auto",
     of: str = "von_mises",
     cycle: int = -1,
@@ -364,8 +366,8 @@ def envelope_maps(
 def stress_history(
     envelope: xr.Dataset,
     *,
-    a_H: float | None = None,
-    p_H: float | None = None,
+    a_H: Length | None = None,
+    p_H: PeakPressure | None = None,
     units: Units = "auto",
     of: str = "von_mises",
     width: Width | None = None,

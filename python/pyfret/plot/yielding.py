@@ -14,6 +14,7 @@ from pyfret.plot.scales import Units, last_of, scales_of_snapshot
 from pyfret.plot.sizes import Width, new_axes
 from pyfret.plot.stresses import SYMBOLS
 from pyfret.plot.style import axes, styled
+from pyfret.quantities import Length, as_number
 from pyfret.subsurface.fields import interfaces
 from pyfret.subsurface.line import cut, main_line
 from pyfret.subsurface.plastic import PlasticState
@@ -147,8 +148,8 @@ def residual_stress(
     *,
     body_number: int | None = None,
     of: tuple[str, ...] = ("s_xx", "s_yy", "s_zz"),
-    x: float | None = None,
-    y: float | None = None,
+    x: Length | None = None,
+    y: Length | None = None,
     units: Units = "auto",
     depth: DepthScale = "auto",
     width: Width | None = None,
@@ -182,7 +183,9 @@ def residual_stress(
     number = PlasticState(state, body_number).body_number
     ax, by = axes(ax), scales_of_snapshot(state, units)
     centre = (0.0, 0.0) if state.outline is None else state.outline.centre
-    x, y = (c if at is None else at for at, c in zip((x, y), centre, strict=True))
+    x, y = (
+        c if at is None else at for at, c in zip((as_number(x), as_number(y)), centre, strict=True)
+    )
     below = Unloaded(state, warn=False).stress(x=x, y=y, body_number=number)
     z, layer = below.dataset.z.values / by.length.value, below.dataset.layer.values
     inner = [d / by.length.value for d in interfaces(state.body(number))]

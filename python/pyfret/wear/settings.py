@@ -55,7 +55,7 @@ class Archard(Replaceable):
     """
 
     k: InSI[WearCoefficient]
-    threshold: float = 0.0
+    threshold: InSI[Length] = by_default(0.0)
     factor: Factor | None = None
     starved: InSI[WearCoefficient | None] = by_default(None)
 
