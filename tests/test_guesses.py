@@ -340,11 +340,11 @@ def test_a_place_in_the_history_is_asked_for_as_a_refusal_says(
 ) -> None:
     with pytest.raises(TypeError, match=rf"no argument '{word}': .*result\.at\(") as refused:
         result.at(**{word: 1})
-    for said in re.findall(r"result\.at\([-\d]+\)|result\.at\(t=float.*?\)\)", str(refused.value)):
+    for text in re.findall(r"result\.at\([-\d]+\)|result\.at\(t=float.*?\)\)", str(refused.value)):
         for n in range(len(result.branches().t)):
-            computed = eval(said, {"result": result, "n": n})
+            computed = eval(text, {"result": result, "n": n})
             assert computed.scene == result.scene
-            if "branches" in said:
+            if "branches" in text:
                 ends = result.branches()
                 np.testing.assert_allclose(computed.T_x, ends.T_x[n], rtol=1e-12)
 

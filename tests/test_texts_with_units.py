@@ -112,7 +112,7 @@ def is_row(value: Any) -> bool:
 
 
 def test_every_array_of_the_closed_forms_takes_texts() -> None:
-    """The table of the arrays is that of the signatures."""
+    """The table of arrays is complete."""
     stub = ast.parse(Path(fret.__file__).with_name("_core.pyi").read_text(encoding="utf-8"))
     arrays: dict[str, set[str]] = {}
     for kind in stub.body:
@@ -143,7 +143,7 @@ WITH_UNIT = re.compile(r"\[(m|Pa|N|N/m|rad|Hz)\]")
 
 
 def test_every_number_that_is_described_with_a_unit_is_a_quantity(public: Any) -> None:
-    """Of all public callables and figures."""
+    """All public callables and figures."""
     figures = [(f"plot.{name}", getattr(fret.plot, name)) for name in fret.plot.__all__]
     wrong, count = [], 0
     for name, call in [*public.public(), *figures]:

@@ -25,7 +25,7 @@ __all__ = ["guard", "register_materials", "register_units"]
 #: The class that a constructor gets.
 CLASS = inspect.Parameter("cls", inspect.Parameter.POSITIONAL_ONLY)
 #: Ways of a load cycle in the closed forms.
-WAYS = ("loading", "reloading", "unloading")
+LOADINGS = ("loading", "reloading", "unloading")
 #: Parameters that are given by name.
 NAMED = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
 
@@ -161,8 +161,8 @@ LENGTH, FORCE = ("length", "m"), ("load of a closed form", "N")
 #: Arrays of quantities among the parameters of methods, with their quantity and unit: they take
 #: texts with units, too. A test compares them with the signatures.
 ARRAYS: dict[str, dict[str, tuple[str, str]]] = {
-    **{f"CattaneoMindlin.q_{way}": {"r": LENGTH} for way in WAYS},
-    **{f"CattaneoMindlin.shift_{way}": {"T": FORCE} for way in WAYS},
+    **{f"CattaneoMindlin.q_{loading}": {"r": LENGTH} for loading in LOADINGS},
+    **{f"CattaneoMindlin.shift_{loading}": {"T": FORCE} for loading in LOADINGS},
     **{name: {"r": LENGTH} for name in ("CoatedIndentation.p", "Hertz.p", "Lubkin.q")},
     **{f"HertzStress.{name}": dict.fromkeys("xyz", LENGTH) for name in ("pressure", "shear")},
     **{f"LineContact.{name}": {"x": LENGTH} for name in "pq"},
@@ -179,7 +179,7 @@ def taking_units(call: Callable[..., Any], name: str) -> Callable[..., Any]:
     if arrays is None:
         return call
     # The places begin behind the object.
-    places = {key: place for place, key in enumerate(inspect.signature(call).parameters)}
+    places = {key: index for index, key in enumerate(inspect.signature(call).parameters)}
 
     @functools.wraps(call)
     def with_units(*values: Any, **keywords: Any) -> Any:

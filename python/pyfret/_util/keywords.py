@@ -7,7 +7,7 @@ from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
 from pyfret._util.names import meant
-from pyfret._util.other_calls import SAID_ELSEWHERE
+from pyfret._util.other_calls import WRITTEN_ELSEWHERE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -56,7 +56,7 @@ def unknown_keyword(call: str, keywords: Iterable[str], known: Sequence[str]) ->
     """
     for name in keywords:
         if name not in known:
-            if elsewhere := SAID_ELSEWHERE.get(call, {}).get(name):
+            if elsewhere := WRITTEN_ELSEWHERE.get(call, {}).get(name):
                 return TypeError(f"{call} has no argument {name!r}: {elsewhere}")
             near = nearest_names(name, known, 1)
             names = ", ".join(known) or "none"

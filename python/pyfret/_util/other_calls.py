@@ -1,8 +1,8 @@
-"""Keywords that are no arguments of a call, and what says the same elsewhere."""
+"""Keywords that are no arguments of a call, and the call or key to write instead."""
 
 from __future__ import annotations
 
-__all__ = ["SAID_ELSEWHERE"]
+__all__ = ["WRITTEN_ELSEWHERE"]
 
 #: Words for what is elastic between a contact and the gauge of its rig.
 RIG = (
@@ -23,8 +23,8 @@ WITH_SCENE = (
     *("LoadPath.force", "LoadPath.normal", "LoadPath.tangential", "LoadPath.cycles"),
 )
 
-#: What says the same as a keyword that a call does not take, by call and keyword.
-SAID_ELSEWHERE: dict[str, dict[str, str]] = {
+#: What to write instead of a keyword that a call does not take, by call and keyword.
+WRITTEN_ELSEWHERE: dict[str, dict[str, str]] = {
     "fit": dict.fromkeys(RIG, f"the stiffness of the rig is {UNKNOWN}, {KNOWN}"),
     **dict.fromkeys(
         ("read_loops", "Loops.from_arrays"),
