@@ -63,6 +63,16 @@ def test_the_note_has_the_load_factors(W: float, edge: float | None, part: float
     assert "Plastic(s_y=...)" in note
 
 
+def test_a_residual_stress_does_not_grow_with_the_loads() -> None:
+    """Below one the stress over the limit is not the inverse of the load factor."""
+    result = flank(4e6, 3e-3)
+    life = result.life(NAME, "findley", residual=-1.5e8)
+    (note,) = [note for note in life.notes if "beyond yield" in note]
+    assert "von Mises exceeds the yield stress of" in note
+    factor = result.load_factors(S_Y, residual=-1.5e8).least("von_mises")
+    assert fret._core.with_error(factor.value, factor.error) in note
+
+
 def test_an_elastic_contact_has_no_note() -> None:
     """Nor one that yields in the run, whose stress is the right one."""
     assert flank(4e5, 3e-3).load_factors(S_Y).least().value > 1.0

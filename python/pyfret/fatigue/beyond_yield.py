@@ -13,7 +13,7 @@ from pyfret.fatigue.factors import load_factors
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from pyfret._core import Material
+    from pyfret._core import Body, Material
     from pyfret.fatigue.section import Section, SectionOptions
     from pyfret.run import Run
 
@@ -56,7 +56,11 @@ def note_on_yield(
     material, s_y = materials[first.layer], limits[first.layer]
     assert material is not None
     assert s_y is not None
-    ratio = with_error(1.0 / first.value, first.error / first.value**2)
+    limit_in_words = f"the yield stress of {material.name}, {1e-6 * s_y:.4g} MPa"
+    comparison = f"von Mises exceeds {limit_in_words}"
+    if not has_residual_stress(body, section):
+        ratio = with_error(1.0 / first.value, first.error / first.value**2)
+        comparison = f"von Mises comes to {ratio} of {limit_in_words}"
     elastic = with_error(first.value, first.error)
     where = place(first, len(body.coatings))
     shakedown = factors.least_of(first.layer, "shakedown")
@@ -67,11 +71,16 @@ def note_on_yield(
         else f"beyond {limit} of them every cycle yields"
     )
     return [
-        f"elastic stress beyond yield: von Mises comes to {ratio} of the yield stress of "
-        f"{material.name}, {1e-6 * s_y:.4g} MPa, at {where}. First yield is at {elastic} of the "
-        f"loads, and {later}. Elastic(..., plastic=Plastic(s_y=...)) computes what yields. A "
-        "larger edge radius or a smaller load keeps it elastic"
+        f"elastic stress beyond yield: {comparison}, at {where}. First yield is at {elastic} of "
+        f"the loads, and {later}. Elastic(..., plastic=Plastic(s_y=...)) computes what yields. A "
+        "larger radius or a smaller load keeps it elastic"
     ]
+
+
+def has_residual_stress(body: Body, section: Section) -> bool:
+    """Check for a residual stress, which does not grow with the loads."""
+    stresses = [body.residual, *(coating.residual for coating in body.coatings)]
+    return section.residual is not None or any(stress is not None for stress in stresses)
 
 
 def names_of_numbers(material: Material) -> list[str]:

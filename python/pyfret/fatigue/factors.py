@@ -154,10 +154,11 @@ class LoadFactors(Labelled, Figured):
         return {**self.__dict__, "_sections": []}
 
     def __repr__(self) -> str:
-        """Give the least factor of every limit."""
+        """Give the least factor of every limit, and its layer."""
         least = {limit: self.least(limit) for limit in get_args(Factor)}
         texts = (
-            f"{limit} {with_error(factor.value, factor.error)}" for limit, factor in least.items()
+            f"{limit} {with_error(factor.value, factor.error)} in {factor.layer_name}"
+            for limit, factor in least.items()
         )
         return f"LoadFactors({', '.join(texts)})"
 
