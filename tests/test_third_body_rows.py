@@ -38,10 +38,20 @@ def wear(scene: fret.Scene, **settings: Any) -> fret.wear.WearResult:
     return fret.wear.solve(scene, progress=False, **settings)
 
 
-@pytest.mark.parametrize(("name", "n"), [("strip_pad", 640), ("disc_pad", 512)])
-def test_a_worn_pad_recedes_evenly_with_its_core(name: str, n: int) -> None:
-    row = ROWS[name]
-    get, exact = row["input"], row["output"]
+@pytest.mark.parametrize(("name", "cells"), [("strip_pad", [640]), ("disc_pad", [128, 256])])
+def test_a_worn_pad_recedes_evenly_with_its_core(name: str, cells: list[int]) -> None:
+    """The rim of a disc is known to a part of a cell: an error that halves with the cells."""
+    exact = ROWS[name]["output"]
+    rates, cores = np.array([recede(name, n) for n in cells]).T
+    assert cores[-1] == pytest.approx(exact["core"], rel=WITHIN)
+    rate = rates[-1] if len(cells) == 1 else 2.0 * rates[1] - rates[0]
+    assert rate == pytest.approx(exact["recession"], rel=WITHIN)
+    assert rates == pytest.approx(exact["recession"], rel=3 * WITHIN)
+
+
+def recede(name: str, n: int) -> tuple[float, float]:
+    """Return the recession in a cycle [m] and the size of the core [m] on n cells a side."""
+    get = ROWS[name]["input"]
     b, is_strip = get["b"], name == "strip_pad"
     if is_strip:
         grid = fret.Grid.strip(extent=2.4 * b, n=n)
@@ -77,28 +87,32 @@ def test_a_worn_pad_recedes_evenly_with_its_core(name: str, n: int) -> None:
     cells = inside[:, :1] if is_strip else inside
     starved = float(np.where(cells, 1 - np.asarray(worn.aerated[-1]), 0.0).sum())
     core = 0.5 * starved * grid.dx if is_strip else math.sqrt(starved / math.pi) * grid.dx
-    assert core == pytest.approx(exact["core"], rel=WITHIN)
     lost, cycles = worn.volume1.values, worn.cycles.values
     area = 2 * b if is_strip else math.pi * b**2
     rate = (lost[-1] - lost[-2]) / (cycles[-1] - cycles[-2]) / area
-    assert rate == pytest.approx(exact["recession"], rel=WITHIN)
+    return rate, core
 
 
-def test_friction_follows_a_film_that_is_worn_through() -> None:
+@pytest.mark.parametrize(
+    ("most", "extent", "n"), [(4, 9e-4, 112), pytest.param(5, 2.4e-3, 320, marks=pytest.mark.slow)]
+)
+def test_friction_follows_a_film_that_is_worn_through(most: int, extent: float, n: int) -> None:
+    """Up to some of the half-widths of the row: the widest takes a wide grid and many jumps."""
     row = ROWS["worn_through_slippery"]
     get, exact = row["input"], row["output"]
+    half_widths, ends_at = get["half_width"][:most], exact["cycles"][:most]
     stiff = fret.Elastic(E=1e13, nu=0.3)
     laws = [fret.wear.DissipatedEnergy(get[key]) for key in ("ac", "as_")]
     scene = fret.Scene(
         body1=fret.Body(stiff, shape=fret.Cylinder(R=get["R"])),
         body2=fret.Body(stiff, coatings=fret.Coating(stiff, thickness=get["t"])),
         friction=fret.Friction(layers=[exact["mu_of_contact"][0], get["mus"]]),
-        grid=fret.Grid.strip(extent=2.4e-3, n=320),
+        grid=fret.Grid.strip(extent=extent, n=n),
         path=slides(get["W"], get["delta"]),
     )
     worn = wear(
         scene,
-        cycles=1.06 * exact["cycles"][-1],
+        cycles=1.06 * ends_at[-1],
         body2=laws,
         cycling="sliding",
         worn_through="go_on",
@@ -108,13 +122,14 @@ def test_friction_follows_a_film_that_is_worn_through() -> None:
     through = worn.cycles_to(part_of_coating=1.0)
     assert through == pytest.approx(exact["worn_through_at"], rel=WITHIN)
     ends, length, mu = (worn.dataset[name].values for name in ("cycles", "length", "mu"))
-    for n, half_width in enumerate(get["half_width"]):
+    for half_width, N, mu_of_contact in zip(
+        half_widths, ends_at, exact["mu_of_contact"][:most], strict=True
+    ):
         cycles = worn.cycles_to(depth=half_width**2 / (2 * get["R"]))
-        assert cycles == pytest.approx(exact["cycles"][n], rel=WITHIN)
+        assert cycles == pytest.approx(N, rel=WITHIN)
         # Single jumps scatter by the cells that pass from film to substrate.
-        N = exact["cycles"][n]
         # Friction rises with a root where the film is worn through: no mean over both sides.
         last = 1.05 * N if 1.01 * exact["worn_through_at"] < N else N
         near = (ends > 0.95 * N) & (ends - length < last)
         mean = np.average(mu[near], weights=length[near])
-        assert mean == pytest.approx(exact["mu_of_contact"][n], rel=WITHIN)
+        assert mean == pytest.approx(mu_of_contact, rel=WITHIN)
