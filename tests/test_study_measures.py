@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
@@ -11,6 +12,7 @@ import pytest
 import xarray as xr
 
 import pyfret as fret
+from pyfret.study import point, stresses
 from pyfret.study.loop import Costs
 from pyfret.study.measures import MEASURES, evaluate_measures
 from pyfret.subsurface.tensor import Stress
@@ -112,6 +114,44 @@ def test_increments_are_chosen_for_the_measures(increments: int | None) -> None:
     else:
         assert np.isnan(study.stiffness.values).all()
         assert "fewer than three increments" in str(study.reason.values[0])
+
+
+@pytest.mark.solves
+@pytest.mark.filterwarnings("ignore")
+def test_a_study_of_a_stress_of_interfaces_solves_and_searches_once_a_point(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The work beside the solutions is one search a point, on both sides of the interface alone."""
+    work: dict[str, list[int]] = {name: [] for name in ("solve", "states", "depths", "sections")}
+
+    def count(module: Any, name: str, of: str, size: Callable[..., int]) -> None:
+        call = getattr(module, name)
+
+        def counted(*values: Any, **options: Any) -> Any:
+            computed = call(*values, **options)
+            work[of].append(size(computed, *values))
+            return computed
+
+        monkeypatch.setattr(module, name, counted)
+
+    count(point, "solve", "solve", lambda result, *_: result.dataset.sizes["increment"])
+    count(stresses, "sample_interfaces", "states", lambda samples, *_: len(samples))
+    count(stresses, "sample_sections", "sections", lambda samples, *_: len(samples))
+    count(Stress, "maximum", "depths", lambda _, stress, *__: stress.dataset.sizes["depth"])
+    path = fret.LoadPath.start().normal(60.0, increments=2).cycles(1, T_x=15.0, increments=3)
+    scene = contact(path, n=12)
+    values = {
+        "mu": [0.4, 0.5, 0.6],
+        "body1.shape.R": [7e-3, 8e-3, 9e-3],
+        "body2.coatings.0.thickness": [6e-6, 8e-6],
+    }
+    study = fret.study.run(scene, values, measure="interface_shear", executor=HERE, progress=False)
+    assert study.count()["done"] == 18
+    sizes = fret.solve(scene, progress=False).dataset.sizes
+    assert work["solve"] == [sizes["increment"]] * 18
+    assert work["states"] == [sizes["saved"]] * 18
+    assert work["depths"] == [2] * 18
+    assert not work["sections"]
 
 
 def test_mean_costs_stand_in_the_progress_with_the_dearest_first() -> None:
