@@ -138,8 +138,12 @@ def test_a_study_of_a_stress_of_interfaces_solves_and_searches_once_a_point(
     count(stresses, "sample_interfaces", "states", lambda samples, *_: len(samples))
     count(stresses, "sample_sections", "sections", lambda samples, *_: len(samples))
     count(Stress, "maximum", "depths", lambda _, stress, *__: stress.dataset.sizes["depth"])
-    path = fret.LoadPath.start().normal(60.0, increments=2).cycles(1, T_x=15.0, increments=3)
-    scene = contact(path, n=12)
+    path = fret.LoadPath.start().normal(6e4, increments=2).cycles(1, T_x=1.5e4, increments=3)
+    a = fret.reference.line_contact(R=8e-3, bodies=(STEEL, TITANIUM), W=6e4).a
+    scene = contact(path).replace(
+        body1=fret.Body(STEEL, shape=fret.Cylinder(R=8e-3)),
+        grid=fret.Grid.strip(extent=2.4 * a, n=64),
+    )
     values = {
         "mu": [0.4, 0.5, 0.6],
         "body1.shape.R": [7e-3, 8e-3, 9e-3],
