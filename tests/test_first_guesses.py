@@ -16,7 +16,7 @@ from conftest import W, sphere_on_flat
 from pyfret._core import measure
 from pyfret._util.modules import SYNONYMS
 from pyfret._util.numbers import layer_index
-from pyfret.fit.outcome import neighbour_correlation
+from pyfret.fit.outcome import Known, neighbour_correlation
 
 PITCH = 2e-6
 X, Y = np.meshgrid(PITCH * np.arange(16), PITCH * np.arange(12), indexing="ij")
@@ -221,7 +221,7 @@ def test_neighbouring_residuals_are_told_from_scatter() -> None:
 
 
 @pytest.mark.parametrize(
-    ("guess", "says"),
+    ("guess", "text"),
     [
         (lambda: fret.fatigue.Material("Ti-6Al-4V"), r"fatigue.Materials\(\)\['Ti-6Al-4V'\]"),  # type: ignore[call-arg]
         (lambda: fret.LoadPath.start().force(T_x=[1.0, 2.0]), r"T_x.*waypoints\(T_x=\[...\]"),  # type: ignore[arg-type]
@@ -230,8 +230,8 @@ def test_neighbouring_residuals_are_told_from_scatter() -> None:
         (lambda: fret.Result({}), r"fret.open\(path\)"),  # type: ignore[arg-type]
     ],
 )
-def test_a_wrong_argument_is_answered_with_the_call(guess: Callable[[], object], says: str) -> None:
-    with pytest.raises(TypeError, match=says):
+def test_a_wrong_argument_is_answered_with_the_call(guess: Callable[[], object], text: str) -> None:
+    with pytest.raises(TypeError, match=text):
         guess()
 
 
@@ -278,3 +278,84 @@ def test_a_parameter_of_roughness_is_named_after_the_standard() -> None:
     with pytest.raises(AttributeError, match="S_a"):
         _ = statistics.Sv
     assert pickle.loads(pickle.dumps(statistics)) == copy.copy(statistics)
+
+
+@pytest.mark.solves
+def test_a_table_keeps_the_coordinates_of_its_rows(coated: fret.Result, tmp_path: Path) -> None:
+    state = coated.at(-1)
+    frame = state.to_dataframe(columns=["x", "p"])
+    assert list(frame.columns) == ["x [m]", "y [m]", "p [Pa]"]
+    assert not frame.duplicated(["x [m]", "y [m]"]).any()
+    assert list(state.to_dataframe(columns=["p"]).columns) == ["p [Pa]"]
+    section = state.stress().to_dataframe(columns=["x", "von_mises"])
+    assert list(section.columns) == ["x [m]", "z [m]", "layer", "von_mises [Pa]"]
+
+
+@pytest.mark.solves
+def test_a_profile_is_a_table_with_units(coated: fret.Result, tmp_path: Path) -> None:
+    state, path = coated.at(-1), tmp_path / "profile.csv"
+    state.to_csv(path, of="profile", columns=["x", "p", "q_x", "q_y"], units={"Pa": "MPa"})
+    head, *rows = path.read_text().splitlines()
+    assert head == "x [m],p [MPa],q_x [MPa],q_y [MPa]"
+    columns = np.array([row.split(",") for row in rows], dtype=float).T
+    line = state.along(y=0.0)
+    np.testing.assert_allclose(columns[0], line.x, rtol=1e-12)
+    np.testing.assert_allclose(1e6 * columns[1], line.p, rtol=1e-12)
+    for lines in (line, state.along_x()):
+        lines.to_csv(path)
+        assert path.read_text().splitlines()[0].startswith("x [m],")
+        np.testing.assert_allclose(lines.to_dataframe()["q_x [Pa]"], line.q_x, rtol=1e-12)
+    with pytest.raises(TypeError, match=r"no argument 'y': .*snapshot.along\(y=0.0\).to_csv"):
+        state.to_csv(path, y=0.0)
+    with pytest.raises(AttributeError, match=r"snapshot.along\(y=0.0\).*of=.profile"):
+        state.profile("p")
+
+
+@pytest.mark.parametrize(
+    ("guess", "text"),
+    [
+        (lambda r: r.profile("p"), r"result.at\(-1\).along\(y=0.0\)"),
+        (lambda r: r.p_max_error, r"error_bars\(\).p_max.sel\(part='total'\)"),
+        (lambda r: r.first_yield(), r'result.load_factors\("Ti-6Al-4V"\)'),
+        (lambda r: r.at(-1).stress().first_yield(), r'result.load_factors\("Ti-6Al-4V"\)'),
+        (lambda r: fret.fatigue.first_yield(r), r'result.load_factors\("Ti-6Al-4V"\)'),
+        (lambda r: r.load_factors(), r'such as result.load_factors\("Ti-6Al-4V"\)'),
+        (lambda r: r.grow_crack("Al 7075"), r'grow_crack\(x\).life\("Al 7075"\)'),
+        (lambda r: r.grow_crack("steel"), r'grow_crack\(x\).life\("Al 7075"\)'),
+    ],
+)
+@pytest.mark.solves
+def test_a_wrong_call_on_a_result_is_answered(
+    coated: fret.Result, guess: Callable[[fret.Result], object], text: str
+) -> None:
+    with pytest.raises((AttributeError, TypeError, ValueError), match=text):
+        guess(coated)
+
+
+def test_a_wrong_name_of_an_error_is_answered() -> None:
+    unknown = Known(0.5, 0.4, 0.6, 0.1, 0.0, at_bound=False)
+    with pytest.raises(AttributeError, match=r"from .low to .high"):
+        unknown.error  # type: ignore[attr-defined]  # noqa: B018
+    assert pickle.loads(pickle.dumps(unknown)) == copy.copy(unknown) == unknown
+
+
+def test_a_growth_of_cracks_is_answered_with_the_life() -> None:
+    cracks = fret.fracture.Cracks.from_arrays([1e-5, 2e-5], [1e6, 2e6], [0.0, 0.0])
+    with pytest.raises(AttributeError, match=r'cracks.life\("Al 7075"\) counts'):
+        cracks.growth("Al 7075")
+
+
+@pytest.mark.solves
+def test_a_wrong_name_of_a_study_or_of_wear_is_answered(coated: fret.Result) -> None:
+    study = fret.study.run(coated.scene, {"mu": [0.3, 0.4]}, measure="p_max", executor=1)
+    with pytest.raises(AttributeError, match=r"to_dataframe\(\).sort_values\('p_max \[Pa\]'\)"):
+        study.best("p_max")
+    with pytest.raises(AttributeError, match=r"study.failed\(\)"):
+        study.failures  # noqa: B018
+    ordered = study.to_dataframe().sort_values("p_max [Pa]")
+    assert ordered["p_max [Pa]"].is_monotonic_increasing
+    law = fret.wear.Archard(k=1e-17)
+    worn = fret.wear.solve(coated.scene, cycles=10, body2=law, progress=False)
+    for name in ("depth2_error", "error_bars"):
+        with pytest.raises(AttributeError, match=r'wear.error_of\("depth"\)'):
+            getattr(worn, name)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 from pyfret._util.figures import Figured, Figures
+from pyfret._util.tables import as_table
 from pyfret.export.write import write as export
 from pyfret.quantities import (
     Angle,
@@ -31,6 +32,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import ArrayLike
 
+    from pyfret._util.csv_table import Tables
+    from pyfret._util.labelled_table import Table
     from pyfret.export.frame import Frame
     from pyfret.subsurface.tensor import Stress
 
@@ -69,14 +72,22 @@ class Snapshot(State, Shows):
     the figures that show it.
     """
 
+    #: End of the refusal of an argument of its tables.
+    keyword_hint: ClassVar[str] = "; a line is written by snapshot.along(y=0.0).to_csv(path)"
+
     def _repr_html_(self) -> str:
         """Return tables for notebooks."""
         return state_html(self)
 
     def _elsewhere(self, name: str) -> dict[str, str]:
         """Return where a name is found that this object does not have."""
+        profile = "snapshot.along(y=0.0) has its fields on a line, snapshot.to_csv(path, "
+        lines = dict.fromkeys(
+            ("profile", "profiles", "section", "slice", "cut"),
+            f'{profile}of="profile") writes those through the middle',
+        )
         stresses = {measure: f"it is a stress, snapshot.stress().{measure}" for measure in LABELS}
-        return {**stresses, **super()._elsewhere(name)}
+        return {**lines, **stresses, **super()._elsewhere(name)}
 
     @property
     def plastic(self) -> PlasticState:
@@ -96,10 +107,14 @@ class Snapshot(State, Shows):
         """
         return PlasticState(self)
 
+    def _tables(self) -> Tables:
+        """Return what makes the tables: all cells, and the profile on the line of :meth:`along`."""
+        return {**super()._tables(), "profile": lambda: (self.along(), None)}
+
     @quantities
     def along(
         self, *, x: Length | None = None, y: Length | None = None, azimuth: Angle | None = None
-    ) -> xr.Dataset:
+    ) -> Table:
         """Fields on a line of the surface, linear between the centres of the cells.
 
         Parameters
@@ -124,9 +139,10 @@ class Snapshot(State, Shows):
         """
         if x is not None and y is not None and azimuth is None:
             raise ValueError("give x or y, or an azimuth as well: a point is no line")
-        return fields_on(
-            self, contact.line_below(self, None, as_number(x), as_number(y), as_number(azimuth))[0]
-        )
+        line = contact.line_below(self, None, as_number(x), as_number(y), as_number(azimuth))[0]
+        fields = fields_on(self, line)
+        first = [name for name in ("p", "q_x", "q_y", "q_s", "q_t") if name in fields]
+        return as_table(fields[[*first, *(name for name in fields if name not in first)]])
 
     @quantities
     def stress(

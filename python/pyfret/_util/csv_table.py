@@ -11,6 +11,7 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._util.keywords import nearest_names
+from pyfret._util.refusals import refuse_keywords
 from pyfret._util.spelling import factor_between
 
 if TYPE_CHECKING:
@@ -35,6 +36,8 @@ __all__ = [
     "write_excel",
 ]
 
+#: Attribute of a table with the heads of the columns that distinguish its rows.
+PLACES = "places"
 #: The dimension whose entries become columns.
 AXIS = "axis"
 #: Rows of a sheet of Excel, its head included, and characters of its name.
@@ -54,6 +57,13 @@ def head(name: str, of: xr.DataArray) -> str:
     return f"{name} [{unit}]" if unit else name
 
 
+def row_axes(dataset: xr.Dataset, rows: Sequence[str] | None) -> list[str]:
+    """Return the axes of a table, for None the axes of the first variable that has some."""
+    if rows is None:
+        rows = next((v.dims for v in dataset.data_vars.values() if v.dims), ())  # type: ignore[assignment]
+    return [str(dim) for dim in rows or () if dim != AXIS]
+
+
 def columns_of(dataset: xr.Dataset, rows: Sequence[str] | None = None) -> dict[str, Any]:
     """Return the columns of a table by their heads.
 
@@ -62,10 +72,9 @@ def columns_of(dataset: xr.Dataset, rows: Sequence[str] | None = None) -> dict[s
     dataset : xarray.Dataset
         Variables with units.
     rows : sequence of str, optional
-        The axes of the table (default: the axes of the first variable).
+        The axes of the table (default: the axes of the first variable that has some).
     """
-    first = next(iter(dataset.data_vars.values()))
-    over = [str(d) for d in (first.dims if rows is None else rows) if d != AXIS]
+    over = row_axes(dataset, rows)
     shape = [dataset.sizes[d] for d in over]
     columns = {}
     for name, variable in [*dataset.coords.items(), *dataset.data_vars.items()]:
@@ -91,7 +100,13 @@ def data_frame(dataset: xr.Dataset, rows: Sequence[str] | None = None) -> pd.Dat
     """Return the variables over some axes as a table of pandas, units in the names of columns."""
     from pyfret._util.frame import Frame
 
-    return Frame(columns_of(dataset, rows))
+    frame = Frame(columns_of(dataset, rows))
+    axes = row_axes(dataset, rows)
+    if len(axes) > 1:
+        coordinates = [(str(k), v) for k, v in dataset.coords.items() if {*v.dims} & {*axes}]
+        heads = [head(name, values) for name, values in coordinates]
+        frame.attrs[PLACES] = [column for column in heads if column in frame.columns]
+    return frame
 
 
 def write_csv(
@@ -150,6 +165,9 @@ def check_path(path: Any) -> None:
 def choose_columns(frame: pd.DataFrame, columns: Sequence[str] | None) -> pd.DataFrame:
     """Return some columns of a table, by their names with or without units.
 
+    Where a coordinate is among them, the others that distinguish its rows stay. A table over x and
+    y with ``["x", "p"]`` has y as well.
+
     Raises
     ------
     TypeError
@@ -167,7 +185,13 @@ def choose_columns(frame: pd.DataFrame, columns: Sequence[str] | None) -> pd.Dat
         if name not in heads and name not in frame.columns:
             near = nearest_names(name, heads, 3) or list(heads)
             raise ValueError(f"columns: no column {name!r:.60}; there is {', '.join(near)}")
-    return frame[[heads.get(name, name) for name in names]]
+    chosen = [heads.get(name, name) for name in names]
+    coordinates = [column for column in frame.attrs.get(PLACES, ()) if frame[column].nunique() > 1]
+    kept = [column for column in coordinates if column in chosen]
+    if 0 < len(kept) < len(chosen) and frame[kept].duplicated().any():
+        last = 1 + max(chosen.index(column) for column in kept)
+        chosen[last:last] = [column for column in coordinates if column not in chosen]
+    return frame[chosen]
 
 
 def convert_units(frame: pd.DataFrame, units: Mapping[str, str] | None) -> pd.DataFrame:
@@ -259,6 +283,7 @@ class Tabular:
             raise ValueError(f"of = {of!r:.60}: must be one of {', '.join(tables)}")
         return tables[of]
 
+    @refuse_keywords
     def to_dataframe(
         self,
         of: str | None = None,
@@ -274,15 +299,18 @@ class Tabular:
         ----------
         of : str, optional
             The table (default: the main one). A run has ``"increments"``, ``"branches"``,
-            ``"loops"`` and ``"error_bars"``, wear has ``"jumps"`` and ``"loops"``.
+            ``"loops"`` and ``"error_bars"``, wear has ``"jumps"`` and ``"loops"``, an increment
+            has its ``"profile"``.
         columns : sequence of str, optional
-            Columns in this order, with or without their units (default: all).
+            Columns in this order, with or without their units (default: all). Beside a
+            coordinate, the others that distinguish its rows stay.
         units : dict, optional
             Units of some columns in place of SI units, such as ``{"delta_x": "um"}``, or of all
             columns of a unit, such as ``{"m": "um"}``.
         """
         return convert_units(choose_columns(self._frame(of), columns), units)
 
+    @refuse_keywords
     def to_csv(
         self,
         path: str | os.PathLike[str],
@@ -312,6 +340,7 @@ class Tabular:
         frame = convert_units(choose_columns(self._frame(of), columns), units)
         frame.to_csv(path, index=False, lineterminator="\n", encoding="utf-8")
 
+    @refuse_keywords
     def to_excel(
         self,
         path: str | os.PathLike[str],

@@ -4,7 +4,12 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
-from pyfret._util.attributes import dataset_attribute, dataset_item, dataset_names
+from pyfret._util.attributes import (
+    dataset_attribute,
+    dataset_item,
+    dataset_names,
+    missing_attribute,
+)
 from pyfret._util.csv_table import Tabular
 from pyfret._util.lazy import xr
 from pyfret._util.parameter import MADE
@@ -35,7 +40,15 @@ class Labelled(Tabular):
 
     def __getattr__(self, name: str) -> Any:
         """Give a variable or an attribute of the dataset."""
+        if not name.startswith("_") and name not in dataset_names(self.dataset):
+            where = self._elsewhere(name)
+            if name in where:
+                missing_attribute(self, name, where)
         return dataset_attribute(self, name)
+
+    def _elsewhere(self, name: str) -> dict[str, str]:
+        """Return where a name is found that this object does not have."""
+        return {}
 
     def __getitem__(self, name: str) -> Any:
         """Give a variable of the dataset, or another array of the object, by its name."""

@@ -192,7 +192,7 @@ def split_remedies(kinds: list[Any]) -> tuple[list[Any], str]:
     for kind in kinds:
         remedies = [m for m in getattr(kind, "__metadata__", ()) if isinstance(m, Remedy)]
         text = remedies[0].text if remedies else text
-        plain += members(typing.get_args(kind)[0]) if remedies else [kind]
+        plain += members(typing.get_args(kind)[0]) if remedies and not unit_of(kind) else [kind]
     return plain, text
 
 
@@ -294,7 +294,8 @@ class Parameter:
             with_unit = self.unit is not None and self.unit.quantity
             return self.unit.convert(value) if with_unit else _core.si_of("", value)  # type: ignore[union-attr]
         except (TypeError, ValueError) as refused:
-            raise type(refused)(f"{self.name} = {refused}") from None
+            hint = f"; {self.remedy}" if self.remedy else ""
+            raise type(refused)(f"{self.name} = {refused}{hint}") from None
 
     def check_number(self, value: Any) -> None:
         """Refuse a value that is no number, or a missing one.
@@ -327,7 +328,9 @@ class Parameter:
         if kind != "text" and isinstance(value, str | bytes):
             digits = isinstance(value, str) and value.isascii() and value.isdigit()
             written = f": write {int(value)}" if digits else ""
-            raise TypeError(f"{name} = {value!r:.60}: must be a number, not a text{written:.40}")
+            hint = f"; {self.remedy}" if self.remedy else ""
+            message = f"{name} = {value!r:.60}: must be a number, not a text{written:.40}"
+            raise TypeError(message + hint)
         single = np.ndim(value) == 0
         if kind == "count" and not (single and hasattr(value, "__index__")):
             raise TypeError(f"{name} = {value!r:.60}: must be a whole number")

@@ -7,14 +7,18 @@ received it raised.
 from __future__ import annotations
 
 import functools
+import inspect
 import re
 from collections.abc import Callable, Iterable, Mapping
 from types import BuiltinFunctionType
-from typing import Any
+from typing import Any, TypeVar
 
 from pyfret._util.echo import abridge_error
+from pyfret._util.keywords import unknown_keyword
 
-__all__ = ["refuse_clearly"]
+__all__ = ["refuse_clearly", "refuse_keywords"]
+
+C = TypeVar("C", bound=Callable[..., Any])
 
 #: Errors that a value of a wrong class causes.
 WRONG_CLASSES = (OverflowError, RecursionError, AttributeError)
@@ -34,6 +38,13 @@ NOT_ITERABLE = re.compile(r"'(\w+)' object is not iterable")
 REPEATED = (str, float, int, list, tuple, set, dict, bytes, type, BuiltinFunctionType)
 #: Characters of a value that a refusal begins with.
 SHOWN = 50
+#: Ends of refusals of calls without a required argument, by the functions.
+EXAMPLES = {
+    "load_factors": ', such as result.load_factors("Ti-6Al-4V")',
+    "first_yield": '; a result has it in result.load_factors("Ti-6Al-4V").least("von_mises")',
+    "life": ', such as result.life("Ti-6Al-4V")',
+    "arrest": ', such as cracks.arrest("Al 7075")',
+}
 
 
 def refuse_clearly(
@@ -74,6 +85,25 @@ def refuse_clearly(
     return call_refusing
 
 
+def refuse_keywords(method: C) -> C:
+    """Return a method whose refusal of an unknown keyword has the class and the right keywords.
+
+    The attribute ``keyword_hint`` of the object, if there is one, is the end of the refusal.
+    """
+    names = [p.name for p in inspect.signature(method).parameters.values()][1:]
+
+    @functools.wraps(method)
+    def call_checked(self: Any, *values: Any, **keywords: Any) -> Any:
+        """Call the method; the refusal of an unknown keyword names the right ones."""
+        call = f"{type(self).__name__}.{method.__name__}"
+        refusal = unknown_keyword(call, keywords, names)
+        if refusal is not None:
+            raise TypeError(f"{refusal}{getattr(type(self), 'keyword_hint', '')}")
+        return method(self, *values, **keywords)
+
+    return call_checked  # type: ignore[return-value]
+
+
 def name_missing(call: Callable[..., Any], name: str, error: Exception) -> TypeError | None:
     """Return the refusal of a call without a required argument, with what the argument is."""
     missing = MISSING.search(str(error)) if isinstance(error, TypeError) else None
@@ -89,7 +119,8 @@ def name_missing(call: Callable[..., Any], name: str, error: Exception) -> TypeE
             re.M,
         )
         described.append(f"{parameter} ({first_clause(entry[2])})" if entry else parameter)
-    return TypeError(f"{name} needs {' and '.join(described)}")
+    example = EXAMPLES.get(name.rpartition(".")[2], "")
+    return TypeError(f"{name} needs {' and '.join(described)}{example}")
 
 
 def first_clause(text: str) -> str:

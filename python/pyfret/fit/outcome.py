@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._core import with_error
+from pyfret._util.attributes import missing_attribute
 from pyfret._util.holds_arrays import HoldsArrays
 from pyfret._util.keywords import nearest_names, refuse_unknown
 from pyfret._util.lazy import xr
@@ -112,6 +113,23 @@ class Known:
             return True
         across_zero = self.low <= 0 < self.value
         return not (across_zero or self.high > UNRESOLVED * max(self.low, 1e-300) > 0)
+
+
+#: Where others look for the interval of an unknown.
+INTERVAL = dict.fromkeys(
+    ("error", "uncertainty", "stderr", "std", "sigma", "interval", "confidence", "ci"),
+    "its 95 % confidence is from .low to .high; .noise and .solver are parts of half its width",
+)
+
+
+def refuse_attribute(self: Any, name: str) -> Any:
+    """Refuse a name that an unknown does not have, with the nearest one."""
+    missing_attribute(self, name, INTERVAL)
+
+
+if not TYPE_CHECKING:
+    # A method within the class would let type checkers take any name.
+    Known.__getattr__ = refuse_attribute
 
 
 @dataclass(frozen=True, eq=False)

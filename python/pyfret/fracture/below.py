@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 from zlib import crc32
 
 import numpy as np
@@ -12,6 +12,7 @@ import numpy as np
 from pyfret import _core
 from pyfret._util.arrays import plain
 from pyfret._util.lazy import xr
+from pyfret._util.parameter import Remedy
 from pyfret.fatigue.cycle_section import sections_of_cycle
 from pyfret.fatigue.cycles import cycle_increments
 from pyfret.fatigue.section import Section
@@ -51,6 +52,10 @@ RIM = 0.1
 #: increment [bytes].
 MOST_SHARED, BYTES = 128e6, 170.0
 
+#: What to do with a material in place of the position.
+OF_MATERIAL = Remedy(
+    'a crack grows by the loads alone; result.grow_crack(x).life("Al 7075") counts its cycles'
+)
 UNITS = {"units": "Pa m^0.5"}
 
 
@@ -156,7 +161,7 @@ def crack(
 @quantities
 def grow(
     result: Run,
-    x: Length | None = None,
+    x: Annotated[Length, OF_MATERIAL] | None = None,
     *,
     start: Length | None = None,
     end: Length | None = None,

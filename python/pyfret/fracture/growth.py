@@ -217,6 +217,15 @@ class Cracks(Saveable, Labelled, Figured):
         length = ("length", at, about)
         return cls(xr.Dataset({"K_I": (("increment", "length"), K)}, coords={"length": length}))
 
+    def _elsewhere(self, name: str) -> dict[str, str]:
+        """Return where a name is found that this object does not have."""
+        counted = (
+            'cracks.life("Al 7075") counts the cycles of its growth, cracks.arrest("Al 7075") '
+            "has the length at which it stops; result.grow_crack(x) lets it turn as it grows"
+        )
+        words = ("growth", "grow", "growth_rate", "propagate", "propagation", "cycles", "paris")
+        return dict.fromkeys(words, counted)
+
     @property
     def line(self) -> Line:
         """The line on the surface in whose plane the cracks lie, its origin nearest to the axis."""

@@ -41,6 +41,15 @@ CALLS = {
     **dict.fromkeys(
         ("energy", "loop_energy", "energy_per_cycle", "cycle_energy", "dissipation"), ENERGIES
     ),
+    **dict.fromkeys(
+        ("first_yield", "yielding", "yields", "shakedown", "yield_factor", "load_factor"),
+        'result.load_factors("Ti-6Al-4V") has the factors of first yield and of shakedown',
+    ),
+    **dict.fromkeys(
+        ("profile", "profiles", "section", "slice", "line"),
+        "result.at(-1).along(y=0.0) has the fields of an increment on a line, "
+        'result.at(-1).to_csv(path, of="profile") writes those through the middle',
+    ),
     "wear": "fret.wear.solve(scene, body2=fret.wear.Archard(k=...), cycles=...) wears the bodies",
     "fatigue": 'it is called life, result.life("Ti-6Al-4V")',
     **dict.fromkeys(
@@ -123,6 +132,11 @@ class Run(OfRun):
             )
         if name == "contact_radius":
             fields[name] = "of a line contact it is half_width"
+        if (measured := name.removesuffix("_error")) != name and measured in scalars:
+            fields[name] = (
+                f"result = fret.solve(scene, error=True) has the errors at the end of each branch, "
+                f"result.error_bars().{measured}.sel(part='total')"
+            )
         public = (member for member in dir(type(self)) if not member.startswith("_"))
         names = [*scalars, *map(str, self.dataset.attrs), *public]
         for field in meant(name, [*fields]) if not meant(name, names) else ():

@@ -10,6 +10,7 @@ import numpy as np
 from pyfret import _core
 from pyfret._util.attributes import attribute_error
 from pyfret._util.numbers import in_words
+from pyfret._util.tables import as_table
 from pyfret._util.window import wrap
 from pyfret.quantities import quantities
 from pyfret.run.attributes import OfRun
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from pyfret._core import Body
+    from pyfret._util.labelled_table import Table
 
 __all__ = ["State"]
 
@@ -209,7 +211,7 @@ class State(OfRun):
         return p.copy(data=_core.continued_pressure(p.values, self.scene.grid))
 
     @quantities
-    def along_x(self, *, y: float = 0.0) -> xr.Dataset:
+    def along_x(self, *, y: float = 0.0) -> Table:
         """Return the fields along the line of constant `y` [m], linear between rows."""
         rows = self.dataset.y.values
         if not rows[0] <= y <= rows[-1]:
@@ -219,7 +221,10 @@ class State(OfRun):
         share = (y - rows[below]) / (rows[above] - rows[below]) if above else 0.0
         fields = self.dataset[[k for k, v in self.dataset.items() if v.dtype.kind == "f"]]
         row = fields.isel(y=below, drop=True) * (1 - share)
-        return row + fields.isel(y=above, drop=True) * share
+        on_line = row + fields.isel(y=above, drop=True) * share
+        for name, values in on_line.items():
+            values.attrs.update(self.dataset[name].attrs)
+        return as_table(on_line)
 
     def __repr__(self) -> str:
         """Say which increment this is and under which loads."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from pyfret._util.bounds import is_bound
 from pyfret._util.bounds import span as between
-from pyfret._util.csv_table import unit_of
+from pyfret._util.csv_table import PLACES, unit_of
 from pyfret._util.figures import Figured
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
@@ -79,6 +79,16 @@ class Study(Saveable, Labelled, Figured):
         """
         return self._points(PARTLY)
 
+    def _elsewhere(self, name: str) -> dict[str, str]:
+        """Return where a name is found that this object does not have."""
+        first = self._heads(self.dataset)[self.measures[0]] if self.measures else "p_max [Pa]"
+        failures = "study.failed() lists the failed points, study.unanswered() missing numbers"
+        ranked = f"study.to_dataframe().sort_values({first!r}) has the points, the smallest first"
+        return {
+            **dict.fromkeys(("failures", "errors", "failed_points", "failure"), failures),
+            **dict.fromkeys(("best", "worst", "idxmin", "idxmax", "optimum", "minimum"), ranked),
+        }
+
     def _points(self, status: int) -> list[tuple[dict[str, Any], str]]:
         """List the points of a status: their parameters, and the reason."""
         d = self.dataset
@@ -115,7 +125,11 @@ class Study(Saveable, Labelled, Figured):
         from pyfret._util.frame import Frame
 
         rows = scalars.to_dataframe().reset_index()
-        return Frame(rows.rename(columns=self._heads(scalars)))
+        heads = self._heads(scalars)
+        frame = Frame(rows.rename(columns=heads))
+        if "point" not in dims:
+            frame.attrs[PLACES] = [heads[name] for name in self.parameters]
+        return frame
 
     def _heads(self, scalars: xr.Dataset) -> dict[str, str]:
         """Return the heads of the columns: names with their units, per metre in line contacts."""

@@ -37,6 +37,10 @@ ELSEWHERE = {
     name: "result.at(-1).stress(x=0.0, y=0.0) is the stress on the line below a point"
     for name in ("line", "profile", "depth_profile", "along_z")
 }
+ELSEWHERE |= dict.fromkeys(
+    ("first_yield", "load_factors", "yields", "shakedown", "safety_factor"),
+    'result.load_factors("Ti-6Al-4V") has the factors of first yield over the cycle',
+)
 ELSEWHERE["save"] = "it is written by stress.to_csv(path); result.save(path) writes the run"
 
 #: Numbers that follow from the components at a point, in the order of the columns of a table.

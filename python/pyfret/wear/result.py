@@ -61,6 +61,17 @@ class WearResult(Saveable, Labelled, Figured):
             "loops": lambda: (self.loops(), ("block",)),
         }
 
+    def _elsewhere(self, name: str) -> dict[str, str]:
+        """Return where a name is found that this object does not have."""
+        error = (
+            'wear.error_of("depth") has the relative error of the deepest depth at the end, '
+            'wear.error_of("volume") the one of the volume; wear.depth_error and '
+            "wear.volume_error have it for every jump"
+        )
+        words = ("depth", "volume", "worn")
+        of_bodies = {f"{word}{body}_error" for word in words for body in (1, 2)}
+        return dict.fromkeys((*of_bodies, "error", "errors", "error_bars", "uncertainty"), error)
+
     @property
     def worn(self) -> xr.DataArray:
         """Depth worn off both bodies together, read with no shift between them, m."""
