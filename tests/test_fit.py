@@ -181,6 +181,20 @@ def test_several_loops_tell_their_drift() -> None:
     assert loops.drift[1] == pytest.approx(0.1 * 4 * np.pi, rel=0.1)
 
 
+def test_turns_that_the_record_leaves_open_are_named() -> None:
+    """Few points at uneven times leave the ends of the stroke open."""
+    true = ball().replace({"mu": 0.62, "rig.stiffness": 8e6})
+    path = true.path.displace(delta_x=[3e-6 * sign for sign in (1, -1, 1, -1, 1)], increments=450)
+    d = fret.solve(true, path, progress=False).dataset
+    shift, T = d.delta_x.values[-370:], d.T_x.values[-370:]
+    few = np.sort(np.random.default_rng(1).choice(370, 48, replace=False))
+    for points, is_open in ((few, True), (np.arange(370), False)):
+        loops = fret.fit.Loops.from_arrays(shift[points], T[points], tilt=False, drift=False)
+        fitted = fret.fit(ball(), loops, unknown={"mu": (0.2, 1.2), "rig.stiffness": (1e6, 1e8)})
+        assert any("place of the turns" in doubt for doubt in fitted.doubts) == is_open
+        assert fitted.known["mu"].low < 0.62 < fitted.known["mu"].high
+
+
 def test_ranges_are_refused_by_name() -> None:
     data = fret.fit.Indentation.from_arrays([1.0, 2.0], [1e-7, 2e-7])
     with pytest.raises(ValueError, match="unknown: none"):

@@ -33,6 +33,8 @@ __all__ = ["FitResult", "Known", "Posterior"]
 ALIKE = 0.97
 #: Factor between the ends of an interval from which an unknown counts as not resolved.
 UNRESOLVED = 4.0
+#: Share of the error of the solver from which its cause is named.
+MOST_OF_ERROR = 0.5
 #: Error of the model of the posterior over the noise from which it is reported.
 ROUGH = 0.3
 #: Residual over the given noise from which the model is doubted.
@@ -158,6 +160,8 @@ class FitResult(Saveable, HoldsArrays):
     solver_known : bool
         Whether a solve on cells twice as wide and one with half of the increments gave the error of
         the solver. Else the confidence does not contain it.
+    turns_share : float
+        Largest part that uncertain turns of loops have in the solver's error of an unknown, 0 to 1.
     converged : bool
         Whether the search ended by itself.
     scene : Scene
@@ -178,6 +182,7 @@ class FitResult(Saveable, HoldsArrays):
     noise: list[float]
     solves: int
     solver_known: bool
+    turns_share: float
     converged: bool
     scene: Scene
     posterior: Posterior | None = None
@@ -278,6 +283,13 @@ class FitResult(Saveable, HoldsArrays):
             sentences.append(
                 "cells twice as wide, or half of the increments, could not be solved: what they "
                 "leave is not in the confidence; give more cells"
+            )
+        if self.turns_share > MOST_OF_ERROR and any(
+            unknown.solver > unknown.noise for unknown in self.known.values()
+        ):
+            sentences.append(
+                f"{self.turns_share:.0%} of the error of the solver is the place of the turns, "
+                "which the points beside them leave open. Sample the ends of the stroke more often"
             )
         if self.posterior is not None and self.posterior.error > ROUGH:
             sentences.append(

@@ -47,6 +47,8 @@ WIDE, FARTHER = 0.15, 3.0
 THREADS = 2
 #: Errors of what a record leaves unsure that its part of a confidence of 95 % has.
 SURE = 2.0
+#: Least divisor of shares of errors.
+TINY = 1e-300
 #: Stiffness of a rig over the stiffness of rig and contact in series, to start with.
 STIFFER = 1.5
 #: Residual without a spring or a drift over the residual with them, up to which they are left out.
@@ -362,7 +364,8 @@ class Search:
             if t * spread[k] * r.width > WIDE and min(u[k], 1 - u[k]) > 0:
                 ends_by_model[k] = self.profile(x, k, covariance, (jacobian, t * np.sqrt(variance)))
         to_all = (inverse.T / scale).T
-        moved = sum(np.abs(to_all @ off) for off in self.solver_errors(u, gauges))
+        parts_of_solver = [np.abs(to_all @ off) for off in self.solver_errors(u, gauges)]
+        moved = sum(parts_of_solver)
         unknowns = {}
         for k, r in enumerate(self.ranges):
             value = r.value(u[k])
@@ -396,6 +399,7 @@ class Search:
             noise=[float(np.sqrt(np.mean(r**2))) for r in residuals],
             solves=self.solves,
             solver_known=self.solver_known,
+            turns_share=float(np.max(parts_of_solver[0][:n] / np.maximum(moved[:n], TINY))),
             converged=converged,
             scene=with_values(self.scene, values) if values else self.scene,
         )
