@@ -22,6 +22,11 @@ def pressed(seed: int) -> fret.Result:
         return fret.solve(scene(z, pitch), path, progress=False)
 
 
+def count_faces(inside: np.ndarray) -> int:
+    """Faces between cells inside and outside."""
+    return sum(int(np.count_nonzero(np.diff(inside.astype(int), axis=k))) for k in (0, 1))
+
+
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: str(row["seed"]))
 def test_self_affine_balls_are_those_of_another_program(row: dict[str, float]) -> None:
     """Cells in contact and the largest pressure, of contacts of 15 to 2100 cells."""
@@ -39,7 +44,7 @@ def test_spots_are_counted_in_the_dataset() -> None:
     p, grid = np.asarray(last.p), result.scene.grid
     cell = grid.dx * grid.dy
     contact = p > 0
-    faces = sum(int(np.count_nonzero(np.diff(contact.astype(int), axis=k))) for k in (0, 1))
+    faces = count_faces(contact)
     beta = (np.pi - 1 + np.log(2)) / 24
     assert float(d.real_area) == pytest.approx(cell * (contact.sum() - beta * faces), rel=1e-9)
     assert float(d.mean_pressure) == pytest.approx(float(d.W) / (cell * contact.sum()), rel=1e-9)
@@ -51,7 +56,9 @@ def test_spots_are_counted_in_the_dataset() -> None:
 
     labels, areas = label_spots(contact, cell)
     assert int(d.spots) == labels.max() == len(areas) > 10
-    assert float(d.largest_spot) == pytest.approx(areas.max())
+    largest = count_faces(labels == 1 + int(np.argmax(areas)))
+    assert float(d.largest_spot) == pytest.approx(areas.max() - beta * largest * cell, rel=1e-9)
+    assert float(d.largest_spot) < float(d.real_area)
     around = np.pad(contact, 1)
     near = sum(
         around[1 + i : around.shape[0] - 1 + i, 1 + j : around.shape[1] - 1 + j]

@@ -204,7 +204,7 @@ pub struct Spots {
     pub whole_cells: f64,
     /// Faces between a cell in contact and one that is not, times the area of a cell \[m^2\].
     pub edge_cells: f64,
-    /// Area of the cells of the largest spot \[m^2\].
+    /// Area of the largest spot, corrected for the perimeter of its cells \[m^2\].
     pub largest: f64,
     /// Part of the cells in contact that have no neighbour in contact.
     pub lone_share: f64,

@@ -88,6 +88,8 @@ pub(crate) struct SpotCount {
     pub(crate) cells: f64,
     /// Cells of the largest spot.
     pub(crate) largest: f64,
+    /// Its faces, as of all spots below.
+    pub(crate) faces_of_largest: f64,
     /// Cells in contact that touch no other, corners included.
     pub(crate) lone: f64,
     /// Faces between a cell in contact and one that is not; of a line contact its ends.
@@ -102,9 +104,12 @@ pub(crate) fn count_spots(lattice: Lattice, contact: &[bool]) -> SpotCount {
     for spot in sums_of_spots(lattice, contact) {
         spots.push((spot.radius(flat), spot.cells));
         count.cells += spot.cells;
-        count.largest = count.largest.max(spot.cells);
+        let faces = if flat { 2.0 } else { spot.faces };
+        if spot.cells > count.largest {
+            (count.largest, count.faces_of_largest) = (spot.cells, faces);
+        }
         count.lone += if spot.cells == 1.0 { 1.0 } else { 0.0 };
-        count.faces += if flat { 2.0 } else { spot.faces };
+        count.faces += faces;
     }
     spots.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
     let mut below = 0.0;
@@ -340,6 +345,7 @@ mod tests {
             let count = field(mirror);
             assert_eq!((count.spots, count.cells), (5, 18.0), "{mirror:?}");
             assert_eq!((count.largest, count.lone), (12.0, 2.0), "{mirror:?}");
+            assert_eq!(count.faces_of_largest, 16.0, "{mirror:?}");
             // The block touches its image: 2 x 6 cells have 16 faces.
             assert_eq!(count.faces, 16.0 + 2.0 * (8.0 + 4.0), "{mirror:?}");
         }

@@ -150,7 +150,7 @@ pub const SCALARS: &[Scalar] = &[
     real(
         "largest_spot",
         "m^2",
-        "area of the cells of the largest spot",
+        "area of the largest spot, corrected like the real area",
         |i| i.spots.largest,
     ),
     real(

@@ -1,7 +1,7 @@
 //! Sizes of the spots of a contact, and the mean gap between the surfaces.
 
 use crate::cells::{Lattice, sums};
-use crate::march::results::Spots;
+use crate::march::results::{EDGE, Spots};
 use crate::march::setup::Setup;
 use crate::scene::Nominal;
 use crate::solvers::Interface;
@@ -33,7 +33,7 @@ pub(super) fn spots(
         count: count.spots,
         whole_cells: count.cells * cell,
         edge_cells: count.faces * cell,
-        largest: count.largest * cell,
+        largest: (count.largest - EDGE * count.faces_of_largest) * cell,
         lone_share: count.lone / count.cells.max(1.0),
         nominal_area: nominal.area,
         mean_gap: if cells > 0.0 { gap / cells } else { 0.0 },
