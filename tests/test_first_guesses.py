@@ -359,3 +359,36 @@ def test_a_wrong_name_of_a_study_or_of_wear_is_answered(coated: fret.Result) -> 
     for name in ("depth2_error", "error_bars"):
         with pytest.raises(AttributeError, match=r'wear.error_of\("depth"\)'):
             getattr(worn, name)
+
+
+@pytest.mark.parametrize(
+    ("word", "call"),
+    [
+        ("life", r'fret.study.Cracking\("Ti-6Al-4V", "smith_watson_topper"\)'),
+        ("worn_depth", r"fret.study.WornDepth\(cycles=1e5, body2=fret.wear.Archard\(k=1e-15\)\)"),
+        ("arrest", r'fret.study.Arrest\("Al 7075"\)'),
+    ],
+)
+def test_a_measure_that_needs_more_is_answered_with_its_class(word: str, call: str) -> None:
+    with pytest.raises(ValueError, match=call):
+        fret.study.run(sphere_on_flat(n=16), {"mu": [0.3, 0.4]}, measure=["p_max", word])
+    assert eval(call.replace("\\", "")) is not None
+
+
+@pytest.mark.solves
+def test_a_summary_of_a_study_counts_what_is_no_number(coated: fret.Result) -> None:
+    study = fret.study.run(
+        coated.scene,
+        {"mu": [0.3, 0.4, 0.5]},
+        measure=[
+            lambda result: 2.0 if result.mu > 0.35 else float("nan"),
+            lambda result: 3.0 if result.mu > 0.45 else float("inf"),
+        ],
+        executor=1,
+        progress=False,
+    )
+    assert study.measures == ["measure_1", "measure_2"]
+    text = " ".join(study.summary().split())
+    assert "measure_1 2, 1 no number" in text
+    assert "measure_2 3, 2 infinite" in text
+    assert "no number at 1 of 3 points: measure_1: measure_1 gave NaN" in text

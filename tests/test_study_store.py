@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -205,9 +206,17 @@ def test_a_scene_whose_files_have_changed_is_another_study(tmp_path: Path) -> No
         go()
 
 
+def named(name: str, value: float) -> Callable[[fret.Result], float]:
+    def measure(_: fret.Result) -> float:
+        return value
+
+    measure.__name__ = name
+    return measure
+
+
 def test_names_that_say_nothing_are_refused() -> None:
-    with pytest.raises(ValueError, match="two measures have the name <lambda>"):
-        solved(None, measure=[lambda _: 2.0, lambda _: 3.0])
+    with pytest.raises(ValueError, match="two measures have the name go"):
+        solved(None, measure=[named("go", 2.0), named("go", 3.0)])
     with pytest.raises(ValueError, match="muu: the nearest is mu"):
         fret.study.run(SCENE, {"muu": [0.2, 0.3]}, measure="p_max", progress=False)
     with pytest.raises(ValueError, match=r"no point of the study has a scene.*coatings"):

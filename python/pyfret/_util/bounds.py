@@ -71,13 +71,27 @@ def is_estimate(values: xr.DataArray) -> bool:
 def span(table: xr.Dataset, name: str) -> str:
     """Format the least and the largest value of a number."""
     values = table[name].values
+    is_float = values.dtype.kind == "f"
+    infinite = np.isinf(values) if is_float else np.zeros(values.shape, dtype=bool)
+    if bounds(table, name) is not None:
+        # A life without an end is printed by the largest that is known.
+        infinite &= False
+    unknown = np.isnan(values) if is_float else infinite
+    counted = ~(infinite | unknown)
+    if not counted.any():
+        return "infinite"
     ends = [
-        np.unravel_index(int(find(values)), values.shape) for find in (np.nanargmin, np.nanargmax)
+        np.unravel_index(int(find(np.where(counted, values, fill))), values.shape)
+        for find, fill in ((np.argmin, np.inf), (np.argmax, -np.inf))
     ]
     low, high = (shown(table, name, at) for at in ends)
+    counts = {"infinite": infinite.sum(), "no number": unknown.sum()}
+    beyond = "".join(f", {count} {word}" for word, count in counts.items() if count)
+    if low == high:
+        return low + beyond
     if low.startswith(ABOUT) and high.startswith(ABOUT):
         high = high.removeprefix(ABOUT)
-    return f"{low} to {high}"
+    return f"{low} to {high}{beyond}"
 
 
 def known_to(table: xr.Dataset, name: str) -> str:

@@ -139,6 +139,22 @@ MEASURES: dict[str, tuple[str, str, Callable[[Result], float | Answer]]] = {
         for name in ("interface_shear", "interface_peel")
     },
 }
+#: Ends of refusals of words for numbers that need more than the result.
+OF_CLASSES = {
+    **dict.fromkeys(
+        ("life", "lives", "cycles", "fatigue", "safety_factor", "margin", "crack_depth"),
+        '; a life needs a material: fret.study.Cracking("Ti-6Al-4V", "smith_watson_topper") has '
+        "the life, fret.study.Cracking with another criterion the safety factor",
+    ),
+    **dict.fromkeys(
+        ("wear", "worn_depth", "worn_volume", "depth", "volume", "wear_depth"),
+        "; wear needs a law: fret.study.WornDepth(cycles=1e5, body2=fret.wear.Archard(k=1e-15))",
+    ),
+    **dict.fromkeys(
+        ("arrest", "crack", "crack_arrest", "arrest_margin"),
+        '; a crack needs a threshold: fret.study.Arrest("Al 7075")',
+    ),
+}
 #: Measures of the last closed cycle.
 OF_CYCLE = (
     "loop_energy",
@@ -225,14 +241,14 @@ class Cracking:
     materials : Material or sequence of Material or None
         Material of the substrate, or one for each layer from the surface down, the substrate's
         last.
-    criterion : str
-        One of :data:`pyfret.fatigue.CRITERIA`.
+    criterion : str, optional
+        One of :data:`pyfret.fatigue.CRITERIA` (default: chosen as by :meth:`pyfret.Result.life`).
     body_number : 1 or 2
         The body.
     """
 
     materials: Materials
-    criterion: CriterionName
+    criterion: CriterionName | None = None
     body_number: int = 2
 
     def __call__(self, result: Result) -> dict[str, xr.DataArray]:
@@ -341,8 +357,10 @@ class FirstToFail:
 def code_checksums(measures: Sequence[Measure]) -> dict[str, str]:
     """Return checksums of the measures that are functions, by their names."""
     return {
-        f"{function_name(measure)}{suffix}": code_checksum(measure)
-        for measure, suffix in zip(measures, suffixes(measures), strict=True)
+        f"{name}{suffix}": code_checksum(measure)
+        for measure, name, suffix in zip(
+            measures, measure_names(measures), suffixes(measures), strict=True
+        )
         if not isinstance(measure, str)
     }
 
@@ -375,8 +393,12 @@ def describe_differences(measure: Any, measures: Sequence[Measure]) -> str:
 
 
 def measure_names(measures: Sequence[Measure]) -> list[str]:
-    """Return the names of measures, which distinguish studies."""
-    return [m if isinstance(m, str) else function_name(m) for m in measures]
+    """Return the names of measures, which distinguish studies.
+
+    A function without a name is called by its position, the first of them ``measure_1``.
+    """
+    names = [m if isinstance(m, str) else function_name(m) for m in measures]
+    return [f"measure_{n}" if name == "<lambda>" else name for n, name in enumerate(names, 1)]
 
 
 def function_name(function: Any) -> str:
@@ -400,6 +422,7 @@ def check_measures(measure: Measure | Sequence[Measure]) -> list[Measure]:
         if isinstance(entry, str) and entry not in MEASURES:
             near = nearest_names(entry, MEASURES, 3)
             hint = f"; the nearest is {' or '.join(near)}" if near else ""
+            hint = OF_CLASSES.get(entry.lower(), hint)
             raise ValueError(
                 f"measure {entry!r:.60}: must be a function or one of {', '.join(MEASURES)}{hint}"
             )
@@ -472,14 +495,15 @@ def evaluate_measures(
     numbers: dict[str, xr.Variable] = {}
     reasons: list[str] = []
     errors: list[Exception] = []
-    for measure, suffix in zip(measures, suffixes(measures), strict=True):
+    names = measure_names(measures)
+    for measure, called, suffix in zip(measures, names, suffixes(measures), strict=True):
         started = time.process_time()
         try:
-            arrays, why = evaluate_measure(result, measure, measures)
+            arrays, why = evaluate_measure(result, measure, measures, called)
         except Exception as error:
             errors.append(error)
             text = " ".join(str(error).split())
-            reasons.append(f"{measure_names([measure])[0]}{suffix}: {type(error).__name__}: {text}")
+            reasons.append(f"{called}{suffix}: {type(error).__name__}: {text}")
             if isinstance(measure, str):
                 units, meaning, _ = MEASURES[measure]
                 units = result.scene.grid.unit_of(units)
@@ -487,8 +511,7 @@ def evaluate_measures(
             continue
         finally:
             if costs is not None:
-                name = f"{measure_names([measure])[0]}{suffix}"
-                costs[name] = time.process_time() - started
+                costs[f"{called}{suffix}"] = time.process_time() - started
         reasons += why
         for name, value in arrays.items():
             base, side = split(name, arrays)
@@ -501,9 +524,9 @@ def evaluate_measures(
 
 
 def evaluate_measure(
-    result: Result, measure: Measure, measures: Sequence[Measure]
+    result: Result, measure: Measure, measures: Sequence[Measure], called: str = ""
 ) -> tuple[dict[str, xr.Variable], list[str]]:
-    """Evaluate one of the measures: its numbers, and the reasons of missing ones."""
+    """Evaluate one of the measures, which is `called` so: its numbers, reasons of missing ones."""
     if isinstance(measure, str):
         units, meaning, compute = MEASURES[measure]
         units, value = result.scene.grid.unit_of(units), compute(result)
@@ -517,7 +540,8 @@ def evaluate_measure(
         reasons = [f"{measure}: {reason_without_number(result, measure)}"] if missing else []
         return {name: array.variable for name, array in arrays.items()}, reasons
     whole = measure(result)
-    numbers = to_variables(whole, function_name(measure))
+    name = called or function_name(measure)
+    numbers = to_variables(whole, name)
     if is_of_pyfret(measure):
         if words := describe_differences(measure, measures):
             for number in numbers.values():
@@ -525,8 +549,8 @@ def evaluate_measure(
         return numbers, list(getattr(whole, "reasons", []))
     reasons = list(getattr(whole, "reasons", []))
     if not isinstance(whole, Reasoned):
-        lost = [name for name, v in numbers.items() if v.size and bool(np.isnan(v.values).all())]
-        reasons += [f"{name}: {function_name(measure)} gave NaN" for name in lost]
+        lost = [key for key, v in numbers.items() if v.size and bool(np.isnan(v.values).all())]
+        reasons += [f"{key}: {name} gave NaN" for key in lost]
     return numbers, reasons
 
 

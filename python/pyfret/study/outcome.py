@@ -216,6 +216,13 @@ class Study(Saveable, Labelled, Figured):
         for name in self.measures:
             if excluded := self.dataset[name].attrs.get("without"):
                 lines.append(f"{name}: its range is without {excluded}")
+        missing: dict[str, int] = {}
+        for _, why in self.unanswered():
+            for reason in why.splitlines():
+                missing[reason] = missing.get(reason, 0) + 1
+        points = self.dataset["status"].size
+        for reason, count in missing.items():
+            lines.append(f"no number at {count} of {points} points: {reason}")
         for values, why in self.failed():
             position = ", ".join(
                 f"{name} = {format_number(value)}" for name, value in values.items()
@@ -233,7 +240,8 @@ class Study(Saveable, Labelled, Figured):
                 if values.dtype.kind in "ifb" and not np.isnan(values).all():
                     span = between(d, name)
                 else:
-                    span = f"{np.unique(values).size} values"
+                    lost = values.dtype.kind == "f" and bool(np.isnan(values).all())
+                    span = "no number" if lost else f"{np.unique(values).size} values"
                 unit = unit_of(name, d[name])
                 # Measures have their unit; keys have the units of a three-dimensional contact.
                 per_metre = kind == "parameter" and of_line_contacts(d)
