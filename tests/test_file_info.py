@@ -5,12 +5,13 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 import pyfret as fret
-from conftest import ROOT
+from conftest import ROOT, sphere_on_flat
 from pyfret._cli import commands
 from pyfret.file_info import describe_file
 from test_real_files import CORPUS, ROWS
@@ -49,6 +50,20 @@ def test_files_are_described_by_the_reader_that_takes_them(row: dict[str, Any]) 
     elif row["reader"] == "fit.read_loops":
         assert info.content["points"] == "81"
         assert "shift 'delta' over force 'T'" in info.content["read"]
+
+
+def test_files_of_pyfret_are_described_by_their_commands(tmp_path: Path) -> None:
+    scene, study = tmp_path / "scene.toml", tmp_path / "study.toml"
+    pressed = sphere_on_flat(n=16).replace(path=fret.LoadPath.start().normal(10.0))
+    scene.write_text(pressed.to_toml(), encoding="utf-8")
+    study.write_text('scene = "scene.toml"\nmeasure = ["p_max"]\n[parameters]\nmu = [0.3, 0.4]\n')
+    info = describe_file(scene)
+    assert info.reader == "fret.Scene.from_file"
+    assert info.content["grid"].startswith("16 x 16 cells of ")
+    assert describe_file(study).reader == "fret study"
+    scene.write_text("body1 = [")
+    with pytest.raises(ValueError, match=r"scene\.toml.*at end of document"):
+        describe_file(scene)
 
 
 def test_doubts_are_listed() -> None:

@@ -355,3 +355,36 @@ def test_a_method_is_named_with_what_it_needs() -> None:
         _ = answers.best
     with pytest.raises(TypeError, match="preference needs of"):
         answers.preference()  # type: ignore[call-arg]
+
+
+@pytest.mark.parametrize(
+    ("word", "name"), [("radius", "R"), ("amplitude", "T_x"), ("modulus", "E"), ("load", "W")]
+)
+def test_a_word_for_a_parameter_of_a_study_is_answered(
+    result: fret.Result, word: str, name: str
+) -> None:
+    with pytest.raises(ValueError, match=rf"{word}: the nearest is {name}$"):
+        fret.study.run(result.scene, {word: [1.0]}, measure="p_max", executor=1, progress=False)
+
+
+@pytest.mark.parametrize(
+    ("word", "name"),
+    [("life", "Cracking"), ("wear", "WornDepth"), ("crack", "Arrest"), ("max_stress", "Largest"),
+     ("energy", "loop_energy"), ("pressure", "p_max")],
+)  # fmt: skip
+def test_a_word_for_a_measure_is_answered(result: fret.Result, word: str, name: str) -> None:
+    with pytest.raises(ValueError, match=rf"; .*{name}"):
+        fret.study.run(result.scene, {"mu": [0.3]}, measure=word, progress=False)
+
+
+def test_a_file_that_is_no_result_is_answered_with_its_reader(tmp_path: Path) -> None:
+    for name, reader in (
+        ("scene.toml", "Scene.from_file"),
+        ("loop.csv", "read_loops"),
+        ("x.bin", ".zarr"),
+    ):
+        (tmp_path / name).write_text("")
+        with pytest.raises(fret.errors.StoreError, match=f"is no result: .*{reader}"):
+            fret.open(tmp_path / name)
+    with pytest.raises(fret.errors.StoreError, match=r"is no result: a folder \.zarr"):
+        fret.open(tmp_path)

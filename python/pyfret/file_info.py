@@ -12,6 +12,7 @@ import numpy as np
 from pyfret import _core
 from pyfret._core import StoreError
 from pyfret._util.numbers import length
+from pyfret._util.toml import read_toml
 from pyfret.export.dat import list_prints
 from pyfret.export.foreign import FORMATS, is_keyword_file, read_by_meshio, read_component_names
 from pyfret.export.frd import list_increments
@@ -78,6 +79,8 @@ def describe_file(path: str | os.PathLike[str]) -> FileInfo:
     ending = source.suffix.lower()
     if source.is_dir() or ending == ".zarr":
         return _store(source)
+    if ending == ".toml":
+        return _document(source)
     start = beginning(source)
     if ending == ".frd":
         return _results(source, "CalculiX FRD", list_increments(source), "block")
@@ -102,6 +105,22 @@ def _store(path: Path) -> FileInfo:
         lines["axes"] = ", ".join(f"{name} ({n})" for name, n in dataset.sizes.items())
         lines["size"] = f"{dataset.nbytes / 1e6:.3g} MB"
     return FileInfo(str(path), "store of pyfret", "fret.open", lines)
+
+
+def _document(path: Path) -> FileInfo:
+    """Describe a scene, or a file of `fret study` or `fret compare`."""
+    table = read_toml(path)
+    for key, command in (("parameters", "study"), ("candidates", "compare")):
+        if key in table:
+            names = ", ".join(map(str, table[key]))
+            return FileInfo(str(path), "TOML", f"fret {command}", {"content": f"{key} {names}"})
+    scene = _core.Scene.from_file(path)
+    grid = scene.grid
+    lines = {"content": "Scene"} | ({"title": scene.title} if scene.title else {})
+    lines["grid"] = f"{grid.nx} x {grid.ny} cells of {length(grid.dx)} x {length(grid.dy)}"
+    lines["described by"] = "fret check, scene.summary()"
+    lines["solved by"] = "fret run, fret.solve(scene)"
+    return FileInfo(str(path), "scene of pyfret", "fret.Scene.from_file", lines)
 
 
 def _results(path: Path, kind: str, increments: Sequence[StoredIncrement], title: str) -> FileInfo:

@@ -337,6 +337,19 @@ def opened(path: str | os.PathLike[str]) -> xr.Dataset:
         raise StoreError(f"{os.fspath(path)}: {type(error).__name__}: {message}") from error
 
 
+#: Files of the metadata of a store, of any format.
+METADATA = ("zarr.json", ".zgroup", ".zattrs", ".zmetadata")
+#: What opens files that are no results, by their ending.
+READERS = {
+    ".toml": "a scene is opened by fret.Scene.from_file(path)",
+    **dict.fromkeys(
+        (".csv", ".txt", ".dat", ".xlsx"),
+        "fret.fit.read_loops(path), fret.LoadHistory.from_csv(path) and fret.read_surface(path) "
+        "read tables",
+    ),
+}
+
+
 def checked(path: str | os.PathLike[str], *, chunks: bool = True) -> None:
     """Refuse a file or folder that pyfret has not written, before anything is read of it.
 
@@ -346,11 +359,14 @@ def checked(path: str | os.PathLike[str], *, chunks: bool = True) -> None:
     restore(target)
     if not target.exists():
         raise StoreError(shown(f"{os.fspath(path)}: no such file or folder"))
-    if target.is_dir():
+    is_store = target.suffix == ".zarr" or any((target / name).exists() for name in METADATA)
+    if target.is_dir() and is_store:
         check_store(target, chunks=chunks)
-    elif target.suffix != ".nc":
-        read_bytes(path)
-        raise StoreError(shown(f"{os.fspath(path)}: is no result: a folder .zarr, or a file .nc"))
+    elif target.is_dir() or target.suffix != ".nc":
+        if target.is_file():
+            read_bytes(path)
+        reader = READERS.get(target.suffix.lower(), "a folder .zarr, or a file .nc")
+        raise StoreError(shown(f"{os.fspath(path)}: is no result: {reader}"))
 
 
 def is_copy(path: str | os.PathLike[str]) -> bool:

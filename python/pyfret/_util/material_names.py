@@ -38,8 +38,11 @@ def list_materials(name: str, materials: Mapping[str, Material]) -> str:
         titles = ", ".join(f"{n!r} is {m.title!r}" for n, m in other_case.items())
         return f"no material {name!r}: in a formula the case counts, {titles}"
     near = _core.nearest_materials(name[:LONGEST], list(materials.values()))
-    hint = f"; the nearest of its kind are {', '.join(near)}" if near else ""
-    return f"no material {name[:LONGEST]!r}{hint}; there are {', '.join(materials)}"
+    hint = f"; the nearest {'are' if len(near) > 1 else 'is'} {', '.join(near)}" if near else ""
+    return (
+        f"no material {name[:LONGEST]!r}{hint}; there are {', '.join(materials)}; "
+        "another one is fret.Elastic(E=..., nu=...)"
+    )
 
 
 def read_material(name: str, parameter: str) -> Material:

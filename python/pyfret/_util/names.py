@@ -61,7 +61,7 @@ MEANT = {
     "s_a": ("statistics",),
     "detrend": ("level",),
     "p_max": ("p_H",),
-    "energy": ("loops", "dissipated_energy", "dissipated"),
+    "energy": ("loops", "loop_energy", "dissipated_energy", "dissipated"),
     "spacing": ("dx", "dy", "grid"),
     "cell_size": ("spacing", "dx", "dy"),
     "step": ("spacing", "dx", "dy"),
@@ -241,6 +241,8 @@ MEANT = {
     "mises": ("von_mises",),
     "k": ("body2", "body1"),
     "x_axis": ("along",),
+    "over": ("along",),
+    "versus": ("along",),
     "extent": ("width", "nx", "dx", "grid"),
 }
 

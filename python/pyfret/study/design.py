@@ -45,6 +45,8 @@ class DescribesScenes(Protocol):
         """Return a text that differs if the scenes differ."""
 
 
+#: Ends of keys, which are parameters where the scene has one such key.
+ENDS_OF_KEYS = ("R", "E", "nu", "thickness", "T_x", "delta_x", "sigma_B")
 #: Most keys that a shortened name may mean for a message.
 MOST_MEANT = 3
 #: The dimension of a study whose parameters change together.
@@ -518,7 +520,7 @@ class Design:
         valid = [*SHORT, "friction", "grid", "body1", "body2", "path", "solver", "kernel"]
         for key in self.parameters:
             if key.split(".")[0] not in valid:
-                near = nearest_names(key, SHORT, 1)
+                near = nearest_names(key, (*SHORT, *ENDS_OF_KEYS), 1)
                 return f"; {key:.200}: the nearest is {near[0]}" if near else ""
         return ""
 

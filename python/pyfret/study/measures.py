@@ -154,6 +154,10 @@ OF_CLASSES = {
         ("arrest", "crack", "crack_arrest", "arrest_margin"),
         '; a crack needs a threshold: fret.study.Arrest("Al 7075")',
     ),
+    **dict.fromkeys(
+        ("max_stress", "largest_stress", "peak_stress", "stress"),
+        '; the nearest is von_mises, tresca, s_1, or fret.study.LargestStress("s_xx")',
+    ),
 }
 #: Measures of the last closed cycle.
 OF_CYCLE = (
