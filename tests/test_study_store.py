@@ -61,6 +61,25 @@ def files_of(store: Path) -> list[str]:
     return sorted(str(p) for p in computed if p.name not in single)
 
 
+def test_the_same_study_at_another_time_writes_the_same_bytes(
+    whole: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """All files are equal but the processor times of the points."""
+    clock = time.time
+    monkeypatch.setattr(time, "time", lambda: clock() + 1e6)
+    solved(tmp_path / "s.zarr")
+    files = sorted(p.relative_to(whole) for p in whole.rglob("*") if p.is_file())
+    assert files == sorted(
+        p.relative_to(tmp_path / "s.zarr") for p in (tmp_path / "s.zarr").rglob("*") if p.is_file()
+    )
+    changed = [
+        str(file)
+        for file in files
+        if (whole / file).read_bytes() != (tmp_path / "s.zarr" / file).read_bytes()
+    ]
+    assert [file for file in changed if "seconds" not in file] == []
+
+
 def test_every_damage_is_named_or_harmless(whole: Path, tmp_path: Path) -> None:
     """Each file missing, cut, and with a byte changed: an error, or the right values."""
     right = fret.open(whole).dataset.load()
