@@ -392,3 +392,50 @@ def test_a_summary_of_a_study_counts_what_is_no_number(coated: fret.Result) -> N
     assert "measure_1 2, 1 no number" in text
     assert "measure_2 3, 2 infinite" in text
     assert "no number at 1 of 3 points: measure_1: measure_1 gave NaN" in text
+
+
+def test_units_of_a_figure_are_answered(coated: fret.Result) -> None:
+    with pytest.raises(TypeError, match=r"units = .*: must be a text; .SI. draws um, MPa and N"):
+        fret.plot.fretting_loop(coated, units={"delta_x": "um"})
+    with pytest.raises(ValueError, match=r"units = 'ksi': must be .* which draws um, MPa and N"):
+        fret.plot.pressure_map(coated, units="ksi")
+    assert "MPa" in fret.plot.pressure_profile(coated, units="MPa").get_ylabel()
+
+
+def test_a_table_prints_the_columns_that_fit(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    lines = repr(fret.materials()).splitlines()
+    heads = lines[0]
+    for head in ("kind", "E [Pa]", "nu", "s_y [Pa]", "hardness [Pa]"):
+        assert head in heads
+    assert "more columns: s_u [Pa]" in next(line for line in lines if "more columns" in line)
+    assert max(map(len, lines)) <= 80
+    assert "1.185e+09" in next(line for line in lines if line.startswith("titanium_6Al4V"))
+    monkeypatch.setenv("COLUMNS", "400")
+    assert "more columns" not in repr(fret.materials()[["kind", "nu"]])
+
+
+def test_a_refusal_of_a_changed_scene_names_no_line() -> None:
+    path = fret.LoadPath.start().normal(W).force(T_x=1.0)
+    with pytest.raises(fret.errors.InvalidSceneError) as refusal:
+        sphere_on_flat(n=16).replace(path=path).replace({"mu": 1e-9})
+    assert str(refusal.value).startswith("path[1].T_x = 1: must be")
+
+
+@pytest.mark.solves
+def test_words_of_summaries(coated: fret.Result) -> None:
+    largest = coated.at(-1).stress().maximum("s_1")
+    if largest.border == "rim":
+        assert "at the rim of the contact" in repr(largest)
+    crack = coated.crack(x=1e-5, angle=0.1)
+    assert crack.summary().startswith("crack from x = 10 um, 5.73 deg from the normal")
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.solves
+def test_a_worn_map_that_leaves_its_grid_names_the_grid_of_wear() -> None:
+    path = fret.LoadPath.start().normal(W, increments=2).cycles(1, delta_x=5e-5, increments=8)
+    scene = sphere_on_flat(n=16).replace(path=path)
+    law = fret.wear.Archard(k=1e-12)
+    with pytest.raises(fret.errors.OffGridError, match=r"Scene.ball_on_flat\(..., wear="):
+        fret.wear.solve(scene, cycles=1e4, body2=law, progress=False)

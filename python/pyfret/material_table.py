@@ -80,9 +80,15 @@ def list_table(
             f"{name} [{unit}]" if unit != "1" else name: values.get(name, float("nan"))
             for name, unit in units.items()
         }
-        about = {"title": entry.title, "kind": entry.kind, "also": ", ".join(entry.also)}
-        listed.append({"name": entry.name, **about, **numbers})
+        about = {"also": ", ".join(entry.also), "title": entry.title}
+        usual = {head: numbers[head] for head in USUAL}
+        entries = ({"name": entry.name, "kind": entry.kind}, usual, numbers, about)
+        listed.append({head: value for part in entries for head, value in part.items()})
     return Frame(listed).set_index("name")
+
+
+#: First columns of the list.
+USUAL = ("E [Pa]", "nu", "s_y [Pa]", "hardness [Pa]")
 
 
 @quantities

@@ -120,6 +120,9 @@ def missing_attribute(self: Any, name: str, elsewhere: Mapping[str, str] | None 
         row = 'fret.fatigue.Materials()["Ti-6Al-4V"]'
         hint = f"it is a number of the table of materials, {row}.number({of_table!r})"
         raise attribute_error(kind.__name__, name, public, {name: hint})
+    if kind.__name__ == "Elastic" and name in ("summary", "table", "sources"):
+        listed = "the numbers of a material with their sources are fret.materials(sources=True)"
+        raise attribute_error(kind.__name__, name, public, {name: f'{listed}.loc["TiN"]'})
     # A word for a method of its own comes before another way to write or draw the whole.
     outputs = {k: call for k, call in output_calls(kind).items() if not meant(k, sorted(public))}
     synonyms = [call_of(kind, synonym) for synonym in meant(name, sorted(public))]

@@ -7,8 +7,12 @@ from typing import Any
 import pandas as pd
 
 from pyfret._util.keywords import nearest_names
+from pyfret._util.window import window_width, wrap
 
 __all__ = ["Frame"]
+
+#: Most rows that are printed, characters of a column, and names of columns that do not fit.
+MOST_ROWS, MOST_CHARACTERS, MOST_NAMES = 60, 40, 30
 
 
 class Frame(pd.DataFrame):  # type: ignore[misc]
@@ -32,6 +36,27 @@ class Frame(pd.DataFrame):  # type: ignore[misc]
         if not name.startswith("_") and name in self._names():
             return self[name]
         return super().__getattr__(name)
+
+    def __repr__(self) -> str:
+        """Give the first columns that fit into the window, and the names of the others."""
+        count, text = len(self.columns), str(super().__repr__())
+        if count < 2 or (max(map(len, text.splitlines())) <= window_width() and "..." not in text):
+            return text
+        shown, fits = 0, ""
+        for n in range(1, count + 1):
+            part = pd.DataFrame(self.iloc[:, :n])
+            part = part.to_string(
+                max_rows=MOST_ROWS,
+                max_colwidth=MOST_CHARACTERS,
+                float_format="{:.6g}".format,
+                na_rep="-",
+            )
+            if n > 1 and max(map(len, part.splitlines())) > window_width():
+                break
+            shown, fits = n, part
+        names = ", ".join(map(str, self.columns[shown : shown + MOST_NAMES]))
+        names += ", ..." if count > shown + MOST_NAMES else ""
+        return f"{fits}\n{wrap(f'{count - shown} more columns: {names}')}" if names else fits
 
     def _names(self) -> dict[str, str]:
         """Return the heads by their names without units."""

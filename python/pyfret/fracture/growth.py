@@ -341,11 +341,19 @@ class Cracks(Saveable, Labelled, Figured):
             for length, high, low, span in numbers
         ]
         titles = ["length\n[um]", f"K_max\n[{unit}]", f"K_min\n[{unit}]", f"range\n[{unit}]"]
-        lines = [format_table(titles, rows)]
+        lines = [self._describe_place(), format_table(titles, rows)]
         if "error" in self.dataset:
             for name, error in (("K_max", self.error), ("range", self.dK_error())):
                 lines.append(f"error of {name}: {1e-6 * error.max():.2g} {unit} at most")
         return wrap("\n".join(lines))
+
+    def _describe_place(self) -> str:
+        """Describe where the crack starts, and its angle from the inward normal."""
+        about = self.dataset.attrs
+        if "x" not in about:
+            return "crack"
+        start = f"crack from x = {1e6 * float(about['x']):.4g} um"
+        return f"{start}, {math.degrees(float(about.get('angle', 0.0))):.3g} deg from the normal"
 
     @quantities
     def dK(self, threshold: Threshold | None = None) -> NDArray[np.float64]:

@@ -3,17 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 import numpy as np
 
+from pyfret._util.parameter import Remedy
 from pyfret.run import Run, State
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+#: Units that a figure has with "SI".
+UNITS_OF_SI = ("um", "µm", "MPa", "N")
 #: Dimensionless where there is a Hertz contact and SI elsewhere, or one of both.
-Units: TypeAlias = Literal["auto", "dimensionless", "SI"]
+Units: TypeAlias = Annotated[
+    Literal["auto", "dimensionless", "SI"],
+    Remedy(
+        '"SI" draws um, MPa and N, "dimensionless" draws over a_H, p_H and mu W; numbers in other '
+        'units are .to_dataframe(units={"m": "mm"})'
+    ),
+]
 
 
 @dataclass(frozen=True)
@@ -58,8 +67,12 @@ def has_friction_scale(mu: float) -> bool:
 def scales(attrs: Mapping[Any, Any], units: Units, *, mu: float = 1.0) -> Scales:
     """Return the scales of a dataset, with or without a_H and p_H among its attributes."""
     hertz = "a_H" in attrs and "p_H" in attrs
+    if units in UNITS_OF_SI:
+        units = "SI"
     if units not in ("auto", "dimensionless", "SI"):
-        raise ValueError(f'units = {units!r}: must be "auto", "dimensionless" or "SI"')
+        raise ValueError(
+            f'units = {units!r}: must be "auto", "dimensionless" or "SI", which draws um, MPa and N'
+        )
     if units == "dimensionless" and not hertz:
         raise ValueError('units = "dimensionless": there is no Hertz contact; give "SI"')
     if units == "SI" or not hertz:

@@ -22,6 +22,8 @@ Which = Literal["body1", "body2", "both"]
 DEBRIS, AIR = CATEGORIES[1], SAFE
 #: Most profiles in a figure.
 MOST_LINES = 50
+#: Deepest depth over the deepest of the profiles from which on the legend has it.
+OFF_LINE = 1.02
 
 
 def _depth(d: xr.Dataset, of: Which) -> np.ndarray:
@@ -68,6 +70,9 @@ def wear_profiles(
         ax.set_xlim(low - room, high + room)
     ax.set_xlabel(f"${along}$ [mm]")
     ax.set_ylabel("worn depth [µm]")
+    deepest = float(np.max(_depth(result.dataset, of)[-1]))
+    if deepest > OFF_LINE * middle[-1].max():
+        ax.plot([], [], " ", label=f"deepest, off this line: {1e6 * deepest:.3g} µm")
     ax.legend(title="cycles", fontsize="small")
     return ax
 

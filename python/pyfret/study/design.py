@@ -68,6 +68,10 @@ def check_source(source: Source, parameter: str = "scene") -> None:
         )
 
 
+#: A line of the text that a scene is made from.
+LINE_OF_TEXT = re.compile(r"\bscene:\d+: ")
+
+
 @quantities
 def with_values(scene: Scene | str | PathLike[str], values: Mapping[str, Any]) -> Scene:
     """Give a scene with other values of its parameters.
@@ -110,7 +114,9 @@ def with_values(scene: Scene | str | PathLike[str], values: Mapping[str, Any]) -
     except InvalidSceneError as error:
         candidates = {name: keys_meant(name, text) for name in values}
         if "unknown key" not in str(error) or not any(candidates.values()):
-            raise
+            # No file was read: a line of the text is no place.
+            message = LINE_OF_TEXT.sub("", str(error))
+            raise type(error)(message) from None
         if all(len(names) < 2 for names in candidates.values()):
             return with_values(
                 scene, {(candidates[k] or [k])[0]: value for k, value in values.items()}

@@ -55,6 +55,13 @@ class Place(NamedTuple):
     z: float
 
 
+#: Borders as they are printed.
+PRINTED_BORDERS = {
+    "rim": "at the rim of the contact",
+    "stick border": "at the border of the stick zone",
+}
+
+
 class Extremum(NamedTuple):
     """An extreme value and its place, between the samples, rims of the contact included.
 
@@ -134,7 +141,7 @@ class Extremum(NamedTuple):
             kind = f"life {margin} cycles" if life else f"safety factor {margin}"
             parts = [f"{kind} at a point", f"value={value}", describe_place(self, self.coatings)]
         if self.border:
-            parts.append(self.border)
+            parts.append(PRINTED_BORDERS.get(self.border, self.border))
         if self.inclination is not None:
             parts.append(f"inclination={degrees(self.inclination)}")
         return f"Extremum({', '.join(parts)})"

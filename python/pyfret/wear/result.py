@@ -309,6 +309,10 @@ class WearResult(Saveable, Labelled, Figured):
                     f"body {body}: {with_error(depth, last['depth_error'] * depth)} um deep, "
                     f"{with_error(lost, self.error_of('volume') * lost)} {volume}"
                 )
+        if any(last[f"volume{body}"] > 0 for body in (1, 2)):
+            lines.append(
+                "depth and volume: error of the computation alone, for the law and mu as given"
+            )
         if self.debris_kept:
             lines.append(
                 f"debris: {self.debris_kept:g} of it stays in the contact, "

@@ -33,6 +33,12 @@ if TYPE_CHECKING:
 
 __all__ = ["block_of_history", "open_run", "resume", "solve"]
 
+#: End of the refusal of a grid that a scar leaves.
+GRID_FOR_SCAR = (
+    "Scene.ball_on_flat(..., wear={...}) and Grid.for_contact(..., wear={...}) choose a grid for "
+    "the scar of all cycles"
+)
+
 
 @quantities
 def solve(
@@ -106,15 +112,18 @@ def solve(
         )
 
     with Progress(title=worn_scene.title or "wear", shown=progress) as bar:
-        kept = _core.wear(
-            worn_scene,
-            table,
-            functions,
-            store=out,
-            overwrite=overwrite,
-            start=begins,
-            on_jump=lambda now: bar.update(round(now - done), round(wear.cycles)),
-        )
+        try:
+            kept = _core.wear(
+                worn_scene,
+                table,
+                functions,
+                store=out,
+                overwrite=overwrite,
+                start=begins,
+                on_jump=lambda now: bar.update(round(now - done), round(wear.cycles)),
+            )
+        except OffGridError as error:
+            raise OffGridError(f"{error}. {GRID_FOR_SCAR}") from None
     if kept is not None:
         return WearResult(dataset(*kept))
     if out is None:
