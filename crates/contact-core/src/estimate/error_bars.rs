@@ -15,6 +15,10 @@
 //!
 //! **Increments.** The change of every number from fewer increments, or to more (`path_error`).
 //!
+//! **Path on a coarser grid.** The path in few increments that is compared with the finer grid is solved on the
+//! same path grid as the run: its errors are part of those of the cells. Without a finer grid a trial gives
+//! their size (`path_grid`).
+//!
 //! **Solver.** Its tolerance, and the tolerance of the additional runs.
 //!
 //! Errors of cells and increments of the same sign add up; errors of opposite sign are not taken to
@@ -37,7 +41,7 @@ use super::numbers::{
     CONTACT_RADIUS, DISSIPATED, LOADS, MOTIONS, NUMBERS, P_MAX, PLASTIC, Q_MAX, STICK_RATIO,
     is_given,
 };
-use super::path_error::path_errors;
+use super::path_error::path_error_parts;
 use super::two_runs::PathError;
 use crate::error::Error;
 use crate::march::{BranchSummary, Increment, Tractions, shear_errors, summarise};
@@ -143,13 +147,20 @@ pub fn error_bars(
     stop: &Arc<AtomicBool>,
 ) -> Result<Vec<ErrorBars>, Error> {
     let scene = &choose_increments(scene, stop)?;
-    let mut along_path = path_errors(scene, stop)?;
-    for (error, seen) in along_path.iter_mut().zip(shear_errors(scene, increments)) {
-        error.q = error.q.max(seen);
-    }
+    let [mut along_path, of_path_grid] = path_error_parts(scene, stop)?;
     let fine = summarise(increments);
     let coarser = coarser_grids(scene, &fine, tractions, stop)?;
     let finer = Finer::solve(scene, stop)?;
+    for (error, of_grid) in along_path.iter_mut().zip(&of_path_grid) {
+        error.add_fields(of_grid);
+        // The change to the finer grid contains the errors of the path grid.
+        if finer.is_none() {
+            error.add_numbers(of_grid);
+        }
+    }
+    for (error, seen) in along_path.iter_mut().zip(shear_errors(scene, increments)) {
+        error.q = error.q.max(seen);
+    }
     let branches = fine.iter().zip(coarser).zip(along_path).enumerate();
     Ok(branches
         .map(|(k, ((fine, of_grids), path))| {

@@ -3,7 +3,8 @@
 //!
 //! The position of a rim within the cells makes random errors of either sign. It is the same on the
 //! same grid whatever the increments, so that the difference from a finer grid is the error with
-//! its sign.
+//! its sign. The path is solved on the path grid of the scene, whose errors hardly depend on the increments
+//! either: the energies of the branches come from there.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -33,7 +34,7 @@ pub(crate) struct Finer {
 }
 
 impl Finer {
-    /// Solves the path in few increments on this grid and on a finer one, and keeps the differences of the
+    /// Solves the path in few increments on this grid, with its path grid, and on a finer one, and keeps the differences of the
     /// numbers at the end of each branch. The increments of the scene must be chosen. None if a finer grid is
     /// too large, if bodies yield (their volume grid has at most as many cells), or if a run fails. Fails only
     /// if `stop` is raised.
@@ -41,12 +42,13 @@ impl Finer {
         let Some(fine) = finest(scene).filter(|_| !scene.yields()) else {
             return Ok(None);
         };
-        let coarse_scene = Scene {
+        let mut coarse_scene = Scene {
             grid: scene.grid,
             body1: scene.body1.clone(),
             body2: scene.body2.clone(),
             ..fine.clone()
         };
+        coarse_scene.settings.solver.path_grid = scene.settings.solver.path_grid;
         let solved = |scene: &Scene| -> Result<_, Error> {
             let increments = March::until(scene, stop)?.run(Vec::new(), &mut ())?;
             Ok(summarise(&increments)

@@ -35,19 +35,25 @@ pub(super) fn with_path_errors(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<
 
 /// Errors at the end of each branch of a path whose increments are all given: of the increments and
 /// of the grid that the path is solved on.
-pub(crate) fn path_errors(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Vec<PathError>, Error> {
+fn path_errors(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Vec<PathError>, Error> {
+    let [mut errors, of_grid] = path_error_parts(scene, stop)?;
+    for (error, of_grid) in errors.iter_mut().zip(&of_grid) {
+        error.add_fields(of_grid);
+    }
+    Ok(errors)
+}
+
+/// Errors at the end of each branch of a path whose increments are all given: of the increments, and of the
+/// grid that the path is solved on, none where that is the grid itself.
+pub(crate) fn path_error_parts(
+    scene: &Scene,
+    stop: &Arc<AtomicBool>,
+) -> Result<[Vec<PathError>; 2], Error> {
     if scene.friction.mu == 0.0 && !scene.yields() {
         // Without friction the pressure of elastic bodies depends on the loads alone, not on the path.
         let branches = scene.path.branches.iter();
-        return Ok(branches.map(|_| PathError::default()).collect());
+        return Ok([branches.map(|_| PathError::default()).collect(), Vec::new()]);
     }
-    let mut errors = Trial::new(scene, stop)?.errors(&scene.path, |_| true)?;
-    for (error, of_grid) in errors.iter_mut().zip(path_grid_errors(scene, stop)?) {
-        error.p += of_grid.p;
-        error.q += of_grid.q;
-        for (error, of_grid) in error.numbers.iter_mut().zip(of_grid.numbers) {
-            *error += of_grid.abs().copysign(*error);
-        }
-    }
-    Ok(errors)
+    let errors = Trial::new(scene, stop)?.errors(&scene.path, |_| true)?;
+    Ok([errors, path_grid_errors(scene, stop)?])
 }

@@ -18,6 +18,7 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use super::numbers::DISSIPATED;
 use super::repeats::Repeats;
 use super::two_runs::{PathError, TwoRuns};
 use crate::error::Error;
@@ -37,6 +38,8 @@ const RATIOS: [usize; 2] = [4, 2];
 const ORDER: f64 = 1.5;
 /// Fewest increments that the path grid can take over, as a part of all.
 const TAKEN_OVER: f64 = 0.5;
+/// Least energy of a branch whose error is typical, over the largest of the path.
+const MUCH: f64 = 0.1;
 
 /// Chooses the path grid of a scene whose increments have just been chosen: the coarsest with which
 /// the errors of the increments and of the path grid, which are independent, stay within
@@ -126,7 +129,29 @@ pub(super) fn path_grid_errors(
         Err(error @ Error::Interrupted { .. }) => return Err(error),
         Err(error) => return Err(without_estimate(cells, &error)),
     };
-    Ok(errors.map(|error| error.times(factor)).collect())
+    let mut errors: Vec<PathError> = errors.map(|error| error.times(factor)).collect();
+    spread_energies(&mut errors);
+    Ok(errors)
+}
+
+/// Gives each branch the largest error of the energy, over the energy, among the branches that dissipate
+/// much.
+///
+/// The energy is a number of the coarser grid, and its difference from cells half as large vanishes by chance
+/// in a branch: of three branches of a ball under T = 0.8 mu W to and fro (128 cells, path on 64) the trial gives
+/// 0.25, 0.08 and 0.005 %, where the energies are off by 0.19, 0.13 and 0.09 %.
+fn spread_energies(errors: &mut [PathError]) {
+    let most = errors.iter().map(|of| of.dissipated).fold(0.0, f64::max);
+    let large = errors.iter().filter(|of| of.dissipated > MUCH * most);
+    let relative = large.map(|of| of.numbers[DISSIPATED].abs() / of.dissipated);
+    let largest = relative.fold(0.0, f64::max);
+    for of in errors {
+        let error = &mut of.numbers[DISSIPATED];
+        // Branches that are solved on both grids have the energy of the finer one.
+        if *error != 0.0 {
+            *error = error.abs().max(largest * of.dissipated);
+        }
+    }
 }
 
 /// Whether a path grid saves work: whether enough increments can be solved on it alone, those that do not end a

@@ -33,6 +33,8 @@ pub(crate) struct PathError {
     pub(crate) reached: f64,
     /// The shear that friction can bear there over the largest of the path (L2).
     pub(crate) bearable: f64,
+    /// Energy dissipated in the branch \[J\].
+    pub(crate) dissipated: f64,
     /// Mean width of the ring of slip there \[m\].
     pub(crate) ring: f64,
     /// [`unconfirmed_peak`] of the run with few increments by the run with many, and the reverse \[Pa\].
@@ -57,6 +59,19 @@ impl PathError {
             self.q.max(self.motion / RUN_AWAY)
         } else {
             self.q
+        }
+    }
+
+    /// Adds the errors of the fields p and q of another source.
+    pub(crate) fn add_fields(&mut self, other: &Self) {
+        self.p += other.p;
+        self.q += other.q;
+    }
+
+    /// Adds the errors of the numbers of another source, whose signs are not known.
+    pub(crate) fn add_numbers(&mut self, other: &Self) {
+        for (error, other) in self.numbers.iter_mut().zip(other.numbers) {
+            *error += other.abs().copysign(*error);
         }
     }
 
@@ -178,6 +193,7 @@ impl TwoRuns {
                     driven: prescribed.delta_x.is_none() && prescribed.delta_y.is_none(),
                     reached: many.shear_norm() / q,
                     bearable: self.mu * many.pressure_norm() / q,
+                    dissipated: many.summary.dissipated,
                     ring: if many.summary.contact_radius > 0.0 {
                         (1.0 - many.summary.stick_ratio.sqrt()) * many.summary.contact_radius
                     } else {
