@@ -177,6 +177,31 @@ def test_the_slope_does_not_depend_on_the_direction_of_the_shear() -> None:
     assert slopes[0] == pytest.approx(slopes[1], rel=1e-9)
 
 
+def test_a_smooth_ball_given_as_a_map_has_the_warning_of_a_ball() -> None:
+    """A map of a ball has no asperities; a spot on top of a rough one is an asperity."""
+    steel = fret.Elastic(E=2.1e11, nu=0.3)
+    grid = fret.Grid.centred(width=4e-4, n=32)
+    x, y = grid.x[:, None], grid.y[None, :]
+    ball = -(x**2 + y**2) / (2 * R)
+    hills = 1e-6 * np.cos(2 * np.pi * x / 2e-4) * np.cos(2 * np.pi * y / 2e-4)
+    shapes: dict[str, fret.Sphere | fret.SurfaceMap] = {
+        "ball": fret.Sphere(R=R),
+        "map": fret.SurfaceMap(ball, spacing=grid.dx),
+        "rough": fret.SurfaceMap(ball + hills, spacing=grid.dx),
+    }
+    for name, shape in shapes.items():
+        bodies = {"body1": fret.Body(steel, shape=shape), "body2": fret.Body(steel)}
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            path = fret.LoadPath.start().normal(1.0 if name == "rough" else 10.0)
+            fret.solve(fret.Scene(friction=0.3, grid=grid, **bodies), path, progress=False)
+        texts = [str(w.message) for w in caught]
+        is_rough = name == "rough"
+        smooth = [text for text in texts if "the contact has 6." in text]
+        assert bool(smooth) != is_rough, texts
+        assert any("uneven: the contact is one spot" in text for text in texts) == is_rough, texts
+
+
 @pytest.mark.parametrize("seed", [101, 104, 109])
 def test_the_largest_stress_is_not_below_samples_under_all_asperities(seed: int) -> None:
     """The search starts below the asperities; planes of the whole contact hold nothing larger."""

@@ -103,6 +103,12 @@ impl Reached {
         estimated.collect()
     }
 
+    /// Whether the contact is one of asperities: of uneven surfaces, more than one spot, or one whose surroundings
+    /// are rough.
+    fn has_asperities(&self, scene: &Scene) -> bool {
+        scene.is_uneven() && (self.spots.count != 1 || !scene.touches_smoothly(self.contact_radius))
+    }
+
     /// A warning if the spots of uneven bodies have fewer than [`FEW_CELLS`] across their radius.
     fn doubt_of_asperities(&self) -> Option<String> {
         let (cells, spots) = (self.cells_per_radius, &self.spots);
@@ -128,7 +134,7 @@ impl Reached {
     /// each.
     pub fn doubts(&self, scene: &Scene) -> Vec<String> {
         let mut doubts = Vec::new();
-        if self.cells_per_radius > 0.0 && scene.is_uneven() {
+        if self.cells_per_radius > 0.0 && self.has_asperities(scene) {
             doubts.extend(self.doubt_of_asperities());
         } else if self.cells_per_radius > 0.0 {
             doubts.extend(scene.doubts_about_cells(self.cells_per_radius, 1.0));

@@ -8,6 +8,7 @@ mod bulk_stress;
 mod case;
 mod centred;
 mod compliant_bonds;
+mod departure;
 mod doubts;
 mod files;
 mod friction;
