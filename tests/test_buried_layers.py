@@ -67,3 +67,28 @@ def test_largest_stresses_of_layers_are_those_of_hankel_transforms(seed: int) ->
                     if abs(extremum.value - truth) > max(0.02 * truth, extremum.error):
                         off.append((extent, n, k, item, truth, extremum))
     assert not off, "\n".join(map(str, [right.a, layers, *off]))
+
+
+@pytest.mark.solves
+@pytest.mark.parametrize("stiffness", [0.5, 2.0, 4.0])
+def test_a_layer_of_a_twentieth_of_the_radius_is_covered(stiffness: float) -> None:
+    """At the rim the largest stress is that of the place where cells make it largest."""
+    steel = fret.Elastic(E=205e9, nu=0.28)
+    thickness = 0.05 * fret.reference.hertz(R=R, bodies=(steel, steel), W=W).a
+    film = fret.Elastic(E=stiffness * steel.E, nu=steel.nu)
+    layers = [Layer(film.E, film.nu, thickness), Layer(steel.E, steel.nu, np.inf)]
+    right = Ball(R, (steel.E, steel.nu), layers, W)
+    for extent, n in ((2.5, 40), (2.5, 60)):
+        scene = fret.Scene(
+            body1=fret.Body(steel, shape=fret.Sphere(R=R)),
+            body2=fret.Body(steel, coatings=[fret.Coating(film, thickness=thickness)]),
+            friction=0.0,
+            grid=fret.Grid.centred(width=extent * right.a, n=n),
+        )
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            at = fret.solve(scene, fret.LoadPath.start().normal(W), progress=False).at(-1)
+            largest = at.stress().maximum("von_mises", layer=0)
+        truth = right.largest(0, "von_mises")
+        assert abs(largest.value - truth) < largest.error, (n, largest, truth)
+        assert largest.value == pytest.approx(truth, rel=0.05 if stiffness > 1.0 else 2e-3), n
