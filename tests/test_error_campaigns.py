@@ -13,6 +13,7 @@ import pyfret as fret
 sys.path.insert(0, str(Path(__file__).parent / "campaign"))
 
 import lines
+import paths
 import worn
 
 pytestmark = pytest.mark.solves
@@ -106,42 +107,10 @@ def test_energies_along_a_coarser_path_are_those_of_the_grid() -> None:
     assert loops[64] == pytest.approx(loops["same"], rel=1.5e-3)
 
 
-@pytest.mark.filterwarnings("ignore:branch . of the path", "ignore:solver.path_grid")
-@pytest.mark.parametrize(
-    ("flat", "mu", "share", "width", "film", "cells"),
-    [
-        (fret.Elastic(E=210e9, nu=0.3), 0.683, (0.64, 0.8), 2.96, 0.0, 64),
-        (fret.Elastic(E=72e9, nu=0.209), 0.681, (0.5685, 0.5685), 2.93, 0.147, 32),
-        (fret.Elastic(E=97.3e9, nu=0.397), 0.391, (0.789, 0.789), 3.283, 0.0, 64),
-    ],
-)
-def test_energies_of_branches_are_within_their_errors_on_a_coarser_path(
-    flat: fret.Elastic,
-    mu: float,
-    share: tuple[float, float],
-    width: float,
-    film: float,
-    cells: int,
-) -> None:
-    """The error of a branch does not vanish by chance: the truth is the path on the grid itself."""
-    ball, W = fret.Elastic(E=210e9, nu=0.3), 100.0
-    radius = fret.reference.hertz(R=0.01, bodies=(ball, flat), W=W).a
-    stiff = fret.Elastic(E=4.0 * flat.E, nu=0.3)
-    coatings = [fret.Coating(stiff, thickness=film * radius)] if film else []
-    first, T = (part * mu * W for part in share)
-    scene = fret.Scene(
-        body1=fret.Body(ball, shape=fret.Sphere(R=0.01)),
-        body2=fret.Body(flat, coatings=coatings),
-        friction=mu,
-        grid=fret.Grid.centred(width=width * radius, n=128),
-        path=fret.LoadPath.start().normal(W).tangential([first, -T, T]),
-        settings=fret.Settings(path_grid=cells),
-    )
-    result = fret.solve(scene, progress=False, error=True)
-    energies = result.branches().dissipated.values[1:]
-    errors = np.array([of["dissipated"]["total"] for of in result.dataset.attrs["error_bars"]])[1:]
-    finely = scene.replace(settings=fret.Settings(path_grid="same", path_tolerance=2e-3))
-    truth = fret.solve(finely, progress=False).branches().dissipated.values[1:]
-    ratios = np.abs(energies - truth) / errors
-    assert ratios.max() < 1.5, ratios
+@pytest.mark.parametrize("seed", [3, 5, 8])
+def test_energies_of_branches_are_within_their_errors_on_a_coarser_path(seed: int) -> None:
+    """The error of a branch does not vanish by chance."""
+    ratios = paths.ratios(seed)
+    assert ratios.size == 3
+    assert ratios.max() < paths.MOST, ratios
     assert np.median(ratios) > 0.1, ratios
