@@ -72,7 +72,7 @@ def test_largest_stresses_of_layers_are_those_of_hankel_transforms(seed: int) ->
 @pytest.mark.solves
 @pytest.mark.parametrize("stiffness", [0.5, 2.0, 4.0])
 def test_a_layer_of_a_twentieth_of_the_radius_is_covered(stiffness: float) -> None:
-    """At the rim the largest stress is that of the place where cells make it largest."""
+    """The error covers what the cells along the rim add to the largest stress."""
     steel = fret.Elastic(E=205e9, nu=0.28)
     thickness = 0.05 * fret.reference.hertz(R=R, bodies=(steel, steel), W=W).a
     film = fret.Elastic(E=stiffness * steel.E, nu=steel.nu)

@@ -4,7 +4,7 @@
 
 Balls on flats, bare, coated or of unlike bodies, sheared to and fro, at a normal force that varies
 or not: 128 or 160 cells with a half or a quarter of them for the path. The truth has the
-increments for a path error of 0.1 %. The last line tells the ratios of the true errors to the
+increments for a path error of 0.1 %. The last line has the ratios of the true errors to the
 printed ones.
 """
 
@@ -62,7 +62,7 @@ def ratios(seed: int) -> np.ndarray:
         finely = scene.replace(settings=fret.Settings(path_grid="same", path_tolerance=1e-3))
         truth = fret.solve(finely, progress=False).branches().dissipated.values
     bars = result.dataset.attrs["error_bars"]
-    bar = np.array([of["dissipated"]["total"] for of in bars])
+    bar = np.array([branch["dissipated"]["total"] for branch in bars])
     off = np.abs(result.branches().dissipated.values - truth)
     counts = truth > LEAST_ENERGY * truth.max()
     counts[0] = False  # Branches after the pressing.

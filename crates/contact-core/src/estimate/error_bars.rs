@@ -16,8 +16,8 @@
 //! **Increments.** The change of every number from fewer increments, or to more (`path_error`).
 //!
 //! **Path on a coarser grid.** The path in few increments that is compared with the finer grid is solved on the
-//! same path grid as the run: its errors are part of those of the cells. Without a finer grid a trial gives
-//! their size (`path_grid`).
+//! same path grid as the run, whose errors the difference contains. Without a finer grid a trial gives their
+//! size (`path_grid`).
 //!
 //! **Solver.** Its tolerance, and the tolerance of the additional runs.
 //!

@@ -141,8 +141,8 @@ pub(super) fn path_grid_errors(
 /// in a branch: of three branches of a ball under T = 0.8 mu W to and fro (128 cells, path on 64) the trial gives
 /// 0.25, 0.08 and 0.005 %, where the energies are off by 0.19, 0.13 and 0.09 %.
 fn spread_energies(errors: &mut [PathError]) {
-    let most = errors.iter().map(|of| of.dissipated).fold(0.0, f64::max);
-    let large = errors.iter().filter(|of| of.dissipated > MUCH * most);
+    let highest = errors.iter().map(|of| of.dissipated).fold(0.0, f64::max);
+    let large = errors.iter().filter(|of| of.dissipated > MUCH * highest);
     let relative = large.map(|of| of.numbers[DISSIPATED].abs() / of.dissipated);
     let largest = relative.fold(0.0, f64::max);
     for of in errors {
