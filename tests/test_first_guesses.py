@@ -439,3 +439,24 @@ def test_a_worn_map_that_leaves_its_grid_names_the_grid_of_wear() -> None:
     law = fret.wear.Archard(k=1e-12)
     with pytest.raises(fret.errors.OffGridError, match=r"Scene.ball_on_flat\(..., wear="):
         fret.wear.solve(scene, cycles=1e4, body2=law, progress=False)
+
+
+@pytest.mark.parametrize("name", ["Sq", "Sa", "Sz", "Ssk", "S_ku"])
+def test_a_map_has_the_parameters_of_the_standard(name: str) -> None:
+    surface = fret.SurfaceMap(ROUGH, spacing=PITCH)
+    assert getattr(surface, name) == getattr(surface.statistics(), name)
+    assert fret.SurfaceMap(ROUGH, spacing=PITCH).Sq == pytest.approx(surface.rms, rel=1e-12)
+    with pytest.raises(AttributeError, match="a SurfaceMap has no 'Sx'"):
+        surface.Sx  # noqa: B018
+    assert copy.copy(surface) == pickle.loads(pickle.dumps(surface)) == surface
+
+
+def test_a_closed_form_of_partial_slip_shows_how_it_is_made() -> None:
+    bodies = (fret.material("steel"), fret.material("steel"))
+    with pytest.raises(TypeError, match=r"fret.reference.hertz\(R=.*stick_radius\(12.0\)"):
+        fret.reference.CattaneoMindlin(R=5e-3, bodies=bodies, W=50.0, T=12.0, mu=0.5)
+    with pytest.raises(TypeError, match=r"fret.reference.hertz\(R="):
+        fret.reference.CattaneoMindlin(bodies=bodies, mu=0.5)
+    hertz = fret.reference.hertz(R=5e-3, bodies=bodies, W=50.0)
+    closed = fret.reference.CattaneoMindlin(hertz, bodies=bodies, mu=0.5)
+    assert closed.stick_radius(12.0) == pytest.approx(hertz.a * (1 - 12.0 / 25.0) ** (1 / 3))

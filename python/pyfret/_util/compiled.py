@@ -58,6 +58,10 @@ METHODS: dict[str, dict[str, MethodDescriptorType]] = {}
 OTHERS_TAKE = {"LoadPath.waypoints": "LoadPath.force"}
 
 
+#: Closed forms that are made from a normal contact.
+OF_HERTZ = ("CattaneoMindlin",)
+
+
 def guard_methods(kind: type) -> None:
     """Put the methods of a class behind :func:`refusing`."""
     METHODS[kind.__name__] = {
@@ -258,6 +262,13 @@ def refuse_call(
     name: str, parameters: list[inspect.Parameter], values: Sequence[Any], keywords: dict[str, Any]
 ) -> TypeError | None:
     """Return the refusal of arguments with unknown names or too many values; None if they fit."""
+    has_contact = len(values) > 1 or "hertz" in keywords
+    if name in OF_HERTZ and not (has_contact and set(keywords) <= {"hertz", "bodies", "mu"}):
+        contact = "fret.reference.hertz(R=5e-3, bodies=bodies, W=50.0)"
+        return TypeError(
+            f"{name} takes the normal contact and no force along x, which its methods take: "
+            f"{name}({contact}, bodies=bodies, mu=0.5).stick_radius(12.0)"
+        )
     # The first value of a constructor is the class.
     if name == "Material" and len(values) == 2 and not keywords:
         return TypeError(

@@ -304,6 +304,17 @@ def statistics(surface: SurfaceMap) -> Statistics:
     )
 
 
+def roughness(surface: SurfaceMap, name: str) -> float:
+    """Return a parameter of the heights by its name in the standard, such as ``Sq``."""
+    if name[:1] != "S" or f"S_{name.removeprefix('S').removeprefix('_')}" not in Statistics._fields:
+        missing_attribute(surface, name)
+    return float(getattr(statistics(surface), name))
+
+
+if not TYPE_CHECKING:
+    SurfaceMap.__getattr__ = roughness
+
+
 def spectrum(surface: SurfaceMap) -> xr.DataArray:
     """Return the power spectral density of the heights, the mean over all directions [m^4]."""
     import xarray as xr
