@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use contact_core::Error;
+use contact_core::digits::short;
 use contact_core::error::Raised;
 use contact_core::scene::Body;
 use contact_subsurface::{CycleSource, Line, plastic_growth};
@@ -55,12 +56,12 @@ impl CriterionJudge {
                 {
                     let unit = if number == "E" { " GPa" } else { "" };
                     notes.push(format!(
-                        "{}: the scene has {number} = {:.4}{unit}, `{}` has {:.4}{unit}. Stresses and strains use \
+                        "{}: the scene has {number} = {}{unit}, `{}` has {}{unit}. Stresses and strains use \
                          the numbers of the scene, strengths the numbers of `{}`",
                         body.layer_name(layer),
-                        digits * value,
+                        short(digits * value),
                         material.name,
-                        digits * own_value,
+                        short(digits * own_value),
                         material.name,
                     ));
                 }

@@ -33,6 +33,7 @@ pub fn rough(x: f64) -> String {
 ///
 /// assert_eq!(with_error(2.16345, Some(0.0123)), "2.163 +- 0.012");
 /// assert_eq!(with_error(1.2184e7, Some(2.4e5)), "(1.218 +- 0.024)e7");
+/// assert_eq!(with_error(-0.2, Some(97.0)), "0 +- 97");
 /// assert_eq!(with_error(2.16345, None), "about 2.2");
 /// assert_eq!(with_error(9.822447996, Some(1e-12)), "9.822");
 /// assert_eq!(with_error(f64::NAN, None), "not known");
@@ -51,7 +52,14 @@ pub fn with_error(value: f64, error: Option<f64>) -> String {
             let scale = if PLAIN.contains(&size) { 0 } else { size };
             let unit = 10_f64.powi(scale);
             let decimals = (OF_ERRORS - 1 - power(error / unit)).clamp(0, 9) as usize;
-            let text = format!("{:.decimals$} +- {:.decimals$}", value / unit, error / unit);
+            let number = format!("{:.decimals$}", value / unit);
+            // A number that its error rounds to zero has no sign.
+            let number = if number.contains(|c: char| ('1'..='9').contains(&c)) {
+                number.as_str()
+            } else {
+                number.trim_start_matches('-')
+            };
+            let text = format!("{number} +- {:.decimals$}", error / unit);
             if scale == 0 {
                 text
             } else {

@@ -32,9 +32,9 @@ pub(crate) fn wrap_behind(line: &str, width: usize, indent: usize) -> Vec<String
 /// A space within a number with its symbol, error and unit, where no line ends.
 const GLUE: &str = "\u{a0}";
 /// Units that stand behind a number.
-const UNITS: [&str; 21] = [
-    "%", "GB", "GPa", "J", "K", "MB", "MPa", "N", "Pa", "W", "a_H", "cells", "cycles", "degrees",
-    "m", "mJ", "mm", "p_H", "s", "uJ", "um",
+const UNITS: [&str; 29] = [
+    "%", "GB", "GPa", "Hz", "J", "K", "MB", "MPa", "N", "Pa", "W", "a_H", "cells", "cycles", "deg",
+    "degrees", "kN", "m", "mJ", "mN", "mm", "nm", "p_H", "pm", "rad", "s", "uJ", "um", "µm",
 ];
 
 /// Wraps a line between its words, not within `x = 1.5 +- 0.1 um`.
@@ -67,16 +67,20 @@ mod tests {
 
     #[test]
     fn lines_are_wrapped_between_words_and_numbers_stay_whole() {
-        let line = "  stiffness (1.070 +- 0.011)e8 N/m and a shift of -3.5e-12 m beside a/very/long/name/of/a/file";
+        let line = "  stiffness (1.070 +- 0.011)e8 N/m and a shift of -3.5e-12 m beside a/very/long/name/of/a/file at 33.4 µm";
         for width in [40, 60] {
             let lines = wrap(line, width);
-            assert!(lines.iter().all(|line| line.len() <= width), "{lines:?}");
+            assert!(
+                lines.iter().all(|line| line.chars().count() <= width),
+                "{lines:?}"
+            );
             assert!(lines.iter().any(|line| line.contains("-3.5e-12 m")));
             assert!(
                 lines
                     .iter()
                     .any(|line| line.contains("(1.070 +- 0.011)e8 N/m"))
             );
+            assert!(lines.iter().any(|line| line.contains("33.4 µm")));
             assert!(lines[1].starts_with("    "));
         }
     }

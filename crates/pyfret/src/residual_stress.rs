@@ -79,7 +79,7 @@ impl<'py> FromPyObject<'_, 'py> for Profile {
 fn wrong() -> PyErr {
     PyValueError::new_err(
         "residual: must be a stress in Pa, or a table of depth and stress, [[depth, s], ..] or \
-         [[depth, s_xx, s_yy], ..]",
+         [[depth, s_xx, s_yy], ..], such as [[0, -500e6], [1e-4, 0]]",
     )
 }
 

@@ -292,6 +292,10 @@ impl Scene {
                 let name = format!("{key}.shape.{name}");
                 doubts.extend(doubt_of(&name, &name, angle));
             }
+            if let Some(azimuth) = body.bulk.azimuth {
+                let name = format!("{key}.bulk_azimuth");
+                doubts.extend(doubt_of(&name, &name, azimuth));
+            }
         }
         let (extent, _) = self.grid.extent();
         if (quantity("modulus").least..GEL).contains(&stiffest)
