@@ -73,6 +73,17 @@ def test_a_rotation_beyond_a_turn_is_doubted(name: str) -> None:
     assert any(f"{name} = 45" in doubt and '"45 deg"' in doubt for doubt in doubts)
 
 
+@pytest.mark.parametrize("number", [1, 2])
+def test_a_direction_of_a_bulk_stress_beyond_a_turn_is_doubted(number: int) -> None:
+    scene = scene_of(shapes.Flat())
+    name = f"body{number}"
+    for azimuth, doubted in ((45.0, True), ("45 deg", False)):
+        body = fret.Body(STEEL, shape=getattr(scene, name).shape, bulk_azimuth=azimuth)
+        doubts = scene.replace(**{name: body}).doubts()
+        key = f"{name}.bulk_azimuth = 45"
+        assert any(key in doubt and '"45 deg"' in doubt for doubt in doubts) is doubted
+
+
 @pytest.mark.parametrize("name", ["delta_x", "delta_y"])
 def test_a_shift_of_metres_is_refused(name: str) -> None:
     path = PRESSED.displace(**{name: 3.0}, increments=1)

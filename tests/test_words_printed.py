@@ -76,6 +76,8 @@ def test_a_layer_has_the_same_name_wherever_it_is_printed(result: fret.Result) -
 
 def test_an_estimate_has_its_word_before_the_number_and_its_unit() -> None:
     assert with_error(2.16345) == "about 2.2"
+    assert with_error(-0.2, 97.0) == "0 +- 97"
+    assert with_error(-0.6, 9.7) == "-0.6 +- 9.7"
     assert re.fullmatch(r"about 52000", with_range(52_345.0, np.nan, np.nan))
 
 
