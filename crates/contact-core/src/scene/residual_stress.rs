@@ -36,8 +36,8 @@ impl ResidualStress {
         let count = body.coatings.len() + 1;
         if layers.len() != count {
             let allowed = format!(
-                "one for each of the {count} layers from the surface down, the substrate last: a stress in Pa, \
-                 or a table of depth and stress, [[0, -500e6], [1e-4, 0]]"
+                "one for each of the {count} layers from the surface down, the substrate last: \
+                 each a stress or a table, [[0, -500e6], [1e-4, 0]]"
             );
             let message = format!("{} of them", layers.len());
             return Err(Error::invalid("residual", message, allowed));
