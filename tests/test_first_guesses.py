@@ -8,15 +8,20 @@ from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+import xarray as xr
 
 import pyfret as fret
 from conftest import W, sphere_on_flat
 from pyfret._core import measure
 from pyfret._util.modules import SYNONYMS
 from pyfret._util.numbers import layer_index
+from pyfret.fit.figures import in_words
 from pyfret.fit.outcome import Known, neighbour_correlation
+from pyfret.plot.parameters import parameter_label
+from pyfret.plot.studies import scale_axis
 
 PITCH = 2e-6
 X, Y = np.meshgrid(PITCH * np.arange(16), PITCH * np.arange(12), indexing="ij")
@@ -460,3 +465,14 @@ def test_a_closed_form_of_partial_slip_shows_how_it_is_made() -> None:
     hertz = fret.reference.hertz(R=5e-3, bodies=bodies, W=50.0)
     closed = fret.reference.CattaneoMindlin(hertz, bodies=bodies, mu=0.5)
     assert closed.stick_radius(12.0) == pytest.approx(hertz.a * (1 - 12.0 / 25.0) ** (1 / 3))
+
+
+def test_figures_label_each_value_and_each_unit() -> None:
+    _, ax = plt.subplots()
+    coordinate = xr.DataArray([50.0, 100.0, 200.0, 400.0], dims="W", name="W")
+    scale_axis(ax, "x", coordinate, {"W": parameter_label("W")})
+    assert [text.get_text() for text in ax.get_xticklabels()] == ["50", "100", "200", "400"]
+    plt.close("all")
+    assert in_words("rig.stiffness", 5.985e6, per_metre=False) == "rig.stiffness = 5.985e+06 N/m"
+    assert in_words("rig.stiffness", 5.985e6, per_metre=True) == "rig.stiffness = 5.985e+06"
+    assert in_words("friction.mu", 0.5, per_metre=False) == "friction.mu = 0.5"

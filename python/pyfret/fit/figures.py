@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pyfret._core import measured_by
 from pyfret._util.theme import STICK
 from pyfret.plot.style import axes, styled
 
@@ -31,6 +32,13 @@ def shown(label: str, values: NDArray[np.float64]) -> tuple[NDArray[np.float64],
     return values, label
 
 
+def in_words(key: str, value: float, *, per_metre: bool) -> str:
+    """Return an unknown with its value, and its unit in a three-dimensional contact."""
+    measured = measured_by(key)
+    unit = "" if measured is None or per_metre else measured[1]
+    return f"{key} = {value:.4g} {unit}".rstrip()
+
+
 @styled
 def curves(
     of: Measured,
@@ -52,7 +60,11 @@ def curves(
         name = "computed" if n == 0 else None
         ax.plot(along[part][order], line[part][order], color=STICK, label=name)
     ax.set_ylabel(label)
-    legend_title = "\n".join(f"{key} = {value:.4g}" for key, value in values.items())
+    # Loads of a line contact are per metre of its width.
+    per_metre = "/m]" in of.labels[1]
+    legend_title = "\n".join(
+        in_words(key, value, per_metre=per_metre) for key, value in values.items()
+    )
     ax.legend(title=legend_title, title_fontsize="small", fontsize="small")
     return ax
 

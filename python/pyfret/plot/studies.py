@@ -199,6 +199,10 @@ def on_axis(coordinate: xr.DataArray, words: Words) -> tuple[np.ndarray, str]:
     return (values / factor if values.dtype.kind in "if" else values), label
 
 
+#: Most values in geometric steps of which each has its tick.
+MOST_TICKS = 6
+
+
 def scale_axis(
     ax: Axes, which: Literal["x", "y"], coordinate: xr.DataArray, words: Words
 ) -> np.ndarray:
@@ -211,6 +215,8 @@ def scale_axis(
         return places
     if geometric(values):
         logarithmic(ax, which)
+        if values.size <= MOST_TICKS:
+            (ax.set_xticks if which == "x" else ax.set_yticks)(values, [f"{v:.4g}" for v in values])
     elif values.dtype.kind in "if":
         # Small numbers as they are, none of them over a power at the end of the axis.
         axis = ax.xaxis if which == "x" else ax.yaxis
