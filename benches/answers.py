@@ -3,7 +3,9 @@
 Times are processor times, medians of several repetitions in one process for each number of threads.
 Each question is asked alone, of a result of which nothing else was asked. The last row asks all of
 them of one result. The change of an answer by twice as many depths stands beside its printed error:
-an answer must not become faster by becoming worse. Tasks of many answers are in
+an answer must not become faster by becoming worse. Counters of the work do not depend on the
+machine: stresses (each point once for each state), planes judged by criteria, kernel tables made
+when a question is asked for the first time. Tasks of many answers are in
 :mod:`answer_tasks`. ::
 
     python benches/answers.py --document docs/performance.md
@@ -185,19 +187,20 @@ def measure(kind: str, cells: int, repeat: int, *, errors: bool) -> dict[str, An
     answers = {}
     for question in asked:
         times = []
+        counts = _core.count_work()
         for _ in range(repeat):
             fresh = fret.Result(run.dataset)
             seconds, known = timed(partial(question.ask, fresh, None))
+            if not times:
+                work = {name: n - counts[name] for name, n in _core.count_work().items()}
             times.append(seconds)
-        answer = {"seconds": median(times), "value": known.value, "error": known.error}
+        answer: dict[str, Any] = {"seconds": median(times), "work": work, **known._asdict()}
         if question.depths and errors:
             by_depths = question.ask(fret.Result(run.dataset), finer)
             answer["change"] = abs(by_depths.value - known.value)
         answers[question.title] = answer
     together = fret.Result(run.dataset)
-    tables = _core.depth_tables_made()
     whole, _ = timed(lambda: [question.ask(together, None) for question in asked])
-    row["tables"] = _core.depth_tables_made() - tables
     answers["all of these of one result"] = {"seconds": whole}
     return row | {"answers": answers}
 
@@ -208,7 +211,9 @@ def tabulate(rows: list[dict[str, Any]]) -> str:
     titles = [question.title for question in QUESTIONS] + ["all of these of one result"]
     lines = [["solution, processor time", *(f"{row['solve_s']:.2g} s" for row in rows)]]
     lines += [[title, *(cost(row, title) for row in rows)] for title in titles]
-    lines.append(["kernel tables made for all of these", *(str(row["tables"]) for row in rows)])
+    for title in titles[:-1]:
+        works = [row["answers"].get(title, {}).get("work") for row in rows]
+        lines.append([f"{title}: work", *(count(work) for work in works)])
     for title in titles[1:-1]:
         lines.append([f"{title}: error", *(share(row["answers"].get(title)) for row in rows)])
     return table(heads, lines)
@@ -220,6 +225,14 @@ def cost(row: dict[str, Any], title: str) -> str:
     if answer is None:
         return ""
     return f"{answer['seconds'] / row['solve_s']:.2g} ({answer['seconds']:.2g} s)"
+
+
+def count(work: dict[str, int] | None) -> str:
+    """Return the work of an answer: stresses on lines and at points, planes, kernel tables."""
+    if work is None:
+        return ""
+    names = ("stresses_on_grids", "stresses_at_points", "planes", "tables")
+    return ", ".join(f"{work[name]:.2g}" for name in names)
 
 
 def share(answer: dict[str, float] | None) -> str:

@@ -3731,6 +3731,14 @@ def coated_indentation(
 def continued_pressure(p: ArrayLike, grid: Grid) -> NDArray[np.float64]:
     """Pressure [Pa], that at the rim continued from inside; use :meth:`Snapshot.p_continued`."""
 
+def count_work() -> dict[str, int]:
+    """
+    Return what this process has computed below surfaces.
+
+    Kernel tables below layers, stresses on lines and planes and at single points (each point once
+    for each state), and planes judged by criteria.
+    """
+
 def coupled_indentation(*, beta: float, mu: float) -> CoupledIndentation:
     """
     Indentation by a sphere for Dundurs' `beta` and friction `mu` > 0.
@@ -3838,9 +3846,6 @@ def dang_van_path(stress: ArrayLike) -> NDArray[np.float64]:
 
 def degrees(angle: float) -> str:
     """An angle [degrees] to a tenth, with its unit."""
-
-def depth_tables_made() -> int:
-    """Return the number of kernel tables below layers that this process has made."""
 
 def depths(body: Body, z: Sequence[float]) -> tuple[list[float], list[int]]:
     """Depths [m] with their layers; on an interface both, the upper one first."""
@@ -4458,6 +4463,7 @@ __all__ = [
     "chosen_depths",
     "coated_indentation",
     "continued_pressure",
+    "count_work",
     "coupled_indentation",
     "crack_life",
     "criteria",
@@ -4468,7 +4474,6 @@ __all__ = [
     "damage_on",
     "dang_van_path",
     "degrees",
-    "depth_tables_made",
     "depths",
     "doubt",
     "doubt_quantity",

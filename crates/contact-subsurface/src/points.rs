@@ -9,6 +9,7 @@ use contact_core::stop::unless;
 use rayon::prelude::*;
 
 use super::continuation::{Window, check_line, line_window, locate_cell};
+use super::counters::count_at_points;
 use super::loads::{Loads, Patch, Plane, Source, snap_to_half_cells};
 use super::states::Loaded;
 use super::{Border, Depth, Line, Point, Side, States};
@@ -132,6 +133,7 @@ impl Points {
         constant_too: bool,
     ) -> Result<Vec<Vec<[f64; 6]>>, Error> {
         let states = self.loaded.states;
+        count_at_points(points.len(), states);
         let away_from_steps = |&(x, y, depth): &Point| {
             let rim = self
                 .loaded

@@ -7,6 +7,7 @@ use ndarray::{Array2, Array3, ArrayView1};
 use rayon::prelude::*;
 
 use super::continuation::{check_line, line_window, locate_cell};
+use super::counters::count_on_grids;
 use super::line_transform::LineTransform;
 use super::loads::{Plane, Source};
 use super::states::Loaded;
@@ -212,6 +213,7 @@ impl Rows {
             .loaded
             .kernel::<Stress, 10, 6>(depth, self.plane.reach())?;
         let mut lines = self.lines_at(&kernel, depth)?;
+        count_on_grids(self.places.len(), lines.len());
         self.add_rim(&kernel, depth, &mut lines);
         for (state, line) in lines.iter_mut().enumerate() {
             let uniform = self.loaded.uniform(state, depth);

@@ -7,6 +7,7 @@ use contact_core::stop::unless;
 use ndarray::Array2;
 use rayon::prelude::*;
 
+use super::counters::count_on_grids;
 use super::loads::{Plane, Source};
 use super::plane_transform::PlaneTransform;
 use super::states::Loaded;
@@ -48,6 +49,7 @@ impl Slices {
             .loaded
             .kernel::<Stress, 10, 6>(depth, self.plane.reach())?;
         let mut planes = self.planes_at(&kernel, depth)?;
+        count_on_grids(self.loaded.grid.cells(), planes.len());
         self.add_rim(&kernel, depth, &mut planes);
         for (state, planes) in planes.iter_mut().enumerate() {
             let uniform = self.loaded.uniform(state, depth);

@@ -1,6 +1,6 @@
 //! A criterion on the stress histories of many points.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use ndarray::ArrayView3;
 use rayon::prelude::*;
@@ -20,6 +20,14 @@ use crate::point_result::PointResult;
 
 /// Points whose histories are copied together: a few hundred kilobytes.
 const CHUNK: usize = 64;
+
+/// Planes judged in this process.
+static PLANES: AtomicU64 = AtomicU64::new(0);
+
+/// Returns the number of planes that this process has judged by criteria of critical planes.
+pub fn planes_judged() -> u64 {
+    PLANES.load(Ordering::Relaxed)
+}
 
 /// Buffers of a worker besides the path.
 #[derive(Default)]
@@ -119,6 +127,7 @@ pub(crate) fn evaluate_point(
         Some(peak) => peak,
         None => search.peak(&mut planes, &mut worker.buffers),
     };
+    PLANES.fetch_add(peak.planes as u64, Ordering::Relaxed);
     let missed = law.factor * peak.missed;
     if peak.n[0].is_nan() {
         return PointResult {

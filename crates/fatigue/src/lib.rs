@@ -74,7 +74,7 @@ pub use criterion::Criterion;
 pub use critical_plane::Search;
 pub use definition::{CRITERIA, Definition, Parameter};
 pub use error::Error;
-pub use evaluate::evaluate;
+pub use evaluate::{evaluate, planes_judged};
 pub use history::History;
 pub use invariants::dang_van_path;
 pub use judge::{Judge, strain_life};

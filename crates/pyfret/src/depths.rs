@@ -31,10 +31,20 @@ pub(crate) fn chosen_depths(
     Ok(depths.iter().map(|d| (d.z, d.layer)).unzip())
 }
 
-/// Return the number of kernel tables below layers that this process has made.
+/// Return what this process has computed below surfaces.
+///
+/// Kernel tables below layers, stresses on lines and planes and at single points (each point once
+/// for each state), and planes judged by criteria.
 #[pyfunction]
-pub(crate) fn depth_tables_made() -> u64 {
-    contact_core::kernels::depth_tables_made()
+#[pyo3(signature = () -> "dict[str, int]")]
+pub(crate) fn count_work(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+    let [on_grids, at_points] = core::stresses_computed();
+    let counts = PyDict::new(py);
+    counts.set_item("tables", contact_core::kernels::depth_tables_made())?;
+    counts.set_item("stresses_on_grids", on_grids)?;
+    counts.set_item("stresses_at_points", at_points)?;
+    counts.set_item("planes", fatigue::planes_judged())?;
+    Ok(counts)
 }
 
 /// Pairs depths \[m\] with their layers; fails if the lists differ in length.

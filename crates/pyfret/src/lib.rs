@@ -109,7 +109,7 @@ mod _core {
     };
 
     #[pymodule_export]
-    use crate::depths::{chosen_depths, depth_tables_made, depths};
+    use crate::depths::{chosen_depths, count_work, depths};
     #[pymodule_export]
     use crate::fatigue::{
         Assessment, Criterion, Material, criteria, criterion_on, damage_of_values, damage_on,
