@@ -150,7 +150,7 @@ pub fn error_bars(
     let [mut along_path, of_path_grid] = path_error_parts(scene, stop)?;
     let fine = summarise(increments);
     let coarser = coarser_grids(scene, &fine, tractions, stop)?;
-    let finer = Finer::solve(scene, stop)?;
+    let finer = Finer::solve(scene, &fine, stop)?;
     for (error, of_grid) in along_path.iter_mut().zip(&of_path_grid) {
         error.add_fields(of_grid);
         // The change to the finer grid contains the errors of the path grid.

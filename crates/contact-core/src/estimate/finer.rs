@@ -11,7 +11,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::numbers::{NUMBERS, numbers};
 use crate::error::Error;
-use crate::march::{March, summarise};
+use crate::march::{BranchSummary, March, summarise};
 use crate::scene::{Grid, PathGrid, SaveFields, Scene};
 
 /// Most increments of a branch.
@@ -34,11 +34,16 @@ pub(crate) struct Finer {
 }
 
 impl Finer {
-    /// Solves the path in few increments on this grid, with its path grid, and on a finer one, and keeps the differences of the
-    /// numbers at the end of each branch. The increments of the scene must be chosen. None if a finer grid is
-    /// too large, if bodies yield (their volume grid has at most as many cells), or if a run fails. Fails only
-    /// if `stop` is raised.
-    pub(crate) fn solve(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Option<Self>, Error> {
+    /// Solves the path in few increments on this grid, with its path grid, and on a finer one, and keeps the
+    /// differences of the numbers at the end of each branch. The increments must be chosen. `branches` are the
+    /// results on this grid: if the path has few increments, it is not solved there again. None if a finer grid
+    /// is too large, if bodies yield (their volume grid has at most as many cells), or if a run fails. Fails
+    /// only if `stop` is raised.
+    pub(crate) fn solve(
+        scene: &Scene,
+        branches: &[BranchSummary],
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Option<Self>, Error> {
         let Some(fine) = finest(scene).filter(|_| !scene.yields()) else {
             return Ok(None);
         };
@@ -56,7 +61,18 @@ impl Finer {
                 .map(numbers)
                 .collect::<Vec<_>>())
         };
-        match solved(&coarse_scene).and_then(|ours| Ok((ours, solved(&fine)?))) {
+        let has_few_increments = scene.path_grid().is_none()
+            && scene
+                .path
+                .branches
+                .iter()
+                .all(|branch| branch.count() <= INCREMENTS);
+        let ours = if has_few_increments {
+            Ok(branches.iter().map(numbers).collect())
+        } else {
+            solved(&coarse_scene)
+        };
+        match ours.and_then(|ours| Ok((ours, solved(&fine)?))) {
             Err(error @ Error::Interrupted { .. }) => Err(error),
             Err(_) => Ok(None),
             Ok((ours, theirs)) => {
