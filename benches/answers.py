@@ -186,7 +186,7 @@ def measure(kind: str, cells: int, repeat: int, *, errors: bool) -> dict[str, An
     finer = twice_as_many(run.at(-1).stress().dataset.z.values)
     answers = {}
     for question in asked:
-        times = []
+        times: list[float] = []
         counts = _core.count_work()
         for _ in range(repeat):
             fresh = fret.Result(run.dataset)
