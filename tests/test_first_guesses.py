@@ -476,3 +476,9 @@ def test_figures_label_each_value_and_each_unit() -> None:
     assert in_words("rig.stiffness", 5.985e6, per_metre=False) == "rig.stiffness = 5.985e+06 N/m"
     assert in_words("rig.stiffness", 5.985e6, per_metre=True) == "rig.stiffness = 5.985e+06"
     assert in_words("friction.mu", 0.5, per_metre=False) == "friction.mu = 0.5"
+
+
+@pytest.mark.parametrize("name", ["error", "error_bars"])
+def test_a_run_of_wear_is_not_asked_for_errors(name: str) -> None:
+    with pytest.raises(TypeError, match=r'worn\.error_of\("depth"\)'):
+        fret.wear.solve(sphere_on_flat(ratio=2.0, n=16), cycles=1e3, **{name: True})

@@ -40,6 +40,10 @@ WRITTEN_ELSEWHERE: dict[str, dict[str, str]] = {
     ),
     **dict.fromkeys(WITH_SCENE, dict.fromkeys(RIG, IN_SCENE)),
     "run": dict.fromkeys(RIG, 'it is a parameter of the study, {"rig.stiffness": [1e6, 1e8]}'),
+    "wear.Wear": dict.fromkeys(
+        ("error", "error_bars", "errors"),
+        'every run of wear has its errors, worn.error_of("depth") and worn.error_of("volume")',
+    ),
     "Result.at": {
         **dict.fromkeys(
             ("branch", "cycle", "loop"),
