@@ -38,6 +38,8 @@ const THICK: f64 = 1000.0;
 const STEEP: f64 = 0.5;
 /// Cells between two points of a map from which on it is coarser than the grid.
 const COARSE_MAP: f64 = 2.0;
+/// Cells between points of a map from which their distance is taken to be in another unit.
+const OTHER_UNIT: f64 = 100.0;
 /// Shift over the longer side of the grid beyond which its unit is another one.
 const FARTHEST: f64 = 200.0;
 /// Part of the Hertz radius that a contact reaches for certain.
@@ -355,9 +357,14 @@ impl Scene {
         let coarser = x.into_iter().chain(y).fold(0.0, f64::max);
         if coarser > COARSE_MAP {
             let (extent, _) = self.grid.extent();
+            let remedy = if coarser > OTHER_UNIT {
+                UNITS
+            } else {
+                "cells as wide as the points are apart lose nothing"
+            };
             doubts.push(format!(
                 "the points of the map {key} lie {:.3e} m by {:.3e} m apart, {coarser:.1} cells of the grid of \
-                 {extent:.3e} m. Straight lines, not measurements, join them; {UNITS}",
+                 {extent:.3e} m. Straight lines, not measurements, join them; {remedy}",
                 map.spacing.0, map.spacing.1
             ));
         }

@@ -1,11 +1,9 @@
 //! A measured surface.
 
-use std::ffi::CString;
-
 use contact_core::Error;
 use contact_core::scene as core;
 use numpy::PyReadonlyArray2;
-use pyo3::exceptions::{PyTypeError, PyUserWarning};
+use pyo3::exceptions::PyTypeError;
 
 use super::super::Pitch;
 use crate::error::{Answer, InvalidSceneError, StoreError};
@@ -266,11 +264,11 @@ fn warn_of_filled(py: Python<'_>, map: core::SurfaceMap) -> Answer<SurfaceMap> {
     if map.filled > 0 {
         let (filled, all) = (map.filled, map.values.len());
         let share = 100.0 * filled as f64 / all as f64;
+        let digits = if share < 0.1 { 3 } else { 1 };
         let text = format!(
-            "{filled} of {all} points ({share:.1} %) were not measured: each has the mean of its neighbours"
+            "{filled} of {all} points ({share:.digits$} %) were not measured: each has the mean of its neighbours"
         );
-        let kind = py.get_type::<PyUserWarning>();
-        PyErr::warn(py, &kind, &CString::new(text).map_err(PyErr::from)?, 1)?;
+        from_python(py, "warn")?.call1((text,))?;
     }
     Ok(SurfaceMap(map))
 }
