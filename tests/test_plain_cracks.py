@@ -44,7 +44,7 @@ def test_thresholds() -> None:
     haddad = fracture.Threshold(dK_th=2.1e6, dS_0=124e6)
     assert haddad.a_0 == pytest.approx(91.29465388e-6)
     assert haddad.range_at(1e-5) == pytest.approx(0.659821e6, rel=1e-5)
-    assert fracture.Threshold(2.1e6).range_at([1e-6, 1.0]).tolist() == [2.1e6, 2.1e6]
+    assert fracture.Threshold(2.1e6).range_at([1e-6, 1e-3]).tolist() == [2.1e6, 2.1e6]
     with pytest.raises(ValueError, match="dK_th"):
         fracture.Threshold(-1.0)
     unknown = fret.fatigue.Material("mine", [("s_D", 300e6, "a test")])

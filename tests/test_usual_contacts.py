@@ -126,7 +126,7 @@ def test_the_materials_are_a_table_with_units_and_sources() -> None:
 def test_an_unknown_name_has_neighbours_of_its_kind(name: str, kind: str) -> None:
     with pytest.raises(KeyError) as refused:
         fret.material(name)
-    listed = str(refused.value).partition("of its kind are ")[2].partition(";")[0].split(", ")
+    listed = str(refused.value).partition("the nearest are ")[2].partition(";")[0].split(", ")
     kinds = fret.materials().kind
     allowed = {"ceramic", "coating"} if kind == "coating" else {kind}
     assert {kinds[near] for near in listed} <= allowed

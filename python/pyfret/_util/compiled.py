@@ -60,6 +60,8 @@ OTHERS_TAKE = {"LoadPath.waypoints": "LoadPath.force"}
 
 #: Closed forms that are made from a normal contact.
 OF_HERTZ = ("CattaneoMindlin",)
+#: What the normal contact and the methods of a closed form take, by names that users try.
+LOADS_AND_SHAPES = {"R", "radius", "W", "P", "force", "T", "T_x", "Q", "a", "p_0"}
 
 
 def guard_methods(kind: type) -> None:
@@ -263,7 +265,8 @@ def refuse_call(
 ) -> TypeError | None:
     """Return the refusal of arguments with unknown names or too many values; None if they fit."""
     has_contact = len(values) > 1 or "hertz" in keywords
-    if name in OF_HERTZ and not (has_contact and set(keywords) <= {"hertz", "bodies", "mu"}):
+    extra = set(keywords) - {"hertz", "bodies", "mu"}
+    if name in OF_HERTZ and extra <= LOADS_AND_SHAPES and not (has_contact and not extra):
         contact = "fret.reference.hertz(R=5e-3, bodies=bodies, W=50.0)"
         return TypeError(
             f"{name} takes the normal contact and no force along x, which its methods take: "
