@@ -13,8 +13,9 @@ from typing import Any
 import pytest
 
 import pyfret as fret
-from pyfret import quantities
+from pyfret import _core, quantities
 from pyfret._util import refusals
+from pyfret._util.compiled import NAMED
 
 ROOT = Path(__file__).parents[1]
 
@@ -167,6 +168,24 @@ def test_an_unknown_keyword_is_refused_with_those_that_are_known(
     # Keywords that a class of options has are known by it.
     with pytest.raises(TypeError, match=r"'resid': the nearest is 'residual' \(of .*azimuth"):
         fret.fatigue.life(None, None, None, resid=[0.0])  # type: ignore[call-arg]
+
+
+def test_a_constructor_says_what_it_needs() -> None:
+    """Every compiled class with required arguments names them, with what they are."""
+    count = 0
+    for kind in vars(_core).values():
+        if not inspect.isclass(kind) or kind.__new__ is object.__new__:
+            continue
+        try:
+            parameters = inspect.signature(kind).parameters.values()
+        except ValueError:
+            continue
+        needed = [p.name for p in parameters if p.default is p.empty and p.kind in NAMED]
+        if needed:
+            count += 1
+            with pytest.raises(TypeError, match=rf"^{kind.__name__} needs {needed[0]}\b"):
+                kind()
+    assert count > 20
 
 
 def test_a_doubt_is_at_the_line_of_the_program_that_calls() -> None:

@@ -388,14 +388,16 @@ def test_a_summary_of_a_study_counts_what_is_no_number(coated: fret.Result) -> N
         measure=[
             lambda result: 2.0 if result.mu > 0.35 else float("nan"),
             lambda result: 3.0 if result.mu > 0.45 else float("inf"),
+            lambda _: float("inf"),
         ],
         executor=1,
         progress=False,
     )
-    assert study.measures == ["measure_1", "measure_2"]
+    assert study.measures == ["measure_1", "measure_2", "measure_3"]
     text = " ".join(study.summary().split())
     assert "measure_1 2, 1 no number" in text
     assert "measure_2 3, 2 infinite" in text
+    assert "measure_3 infinite" in text
     assert "no number at 1 of 3 points: measure_1: measure_1 gave NaN" in text
 
 

@@ -64,7 +64,6 @@ def results() -> dict[str, Any]:
         noise=[0.0],
         solves=3,
         solver_known=True,
-        turns_share=0.0,
         converged=True,
         scene=scene.replace(path=path()),
     )

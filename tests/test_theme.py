@@ -11,11 +11,11 @@ from functools import cache
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from matplotlib.colors import to_rgb
+from matplotlib.colors import to_hex, to_rgb
 from matplotlib.text import Text
 
 import pyfret as fret
-from pyfret._util.theme import CATEGORIES, colour_map
+from pyfret._util.theme import CATEGORIES, MAPS, Kind, colour_map, plotly_scale
 from pyfret.plot.histories import FEW
 from pyfret.plot.stresses import contour_levels, is_signed
 
@@ -147,6 +147,17 @@ def test_a_mark_beyond_the_drawn_section_is_inside_the_axes() -> None:
             if 0.0 <= x <= 1.0:
                 assert ax.get_xlim() == (0.0, 1.0)
             plt.close("all")
+
+
+@pytest.mark.parametrize("kind", MAPS)
+def test_colours_are_the_ones_of_cmcrameri(kind: Kind) -> None:
+    """They are read from its tables, without its import."""
+    cm = pytest.importorskip("cmcrameri.cm")
+    name, low, high = MAPS[kind]
+    expected = getattr(cm, name)(np.linspace(low, high, 256))
+    np.testing.assert_allclose(colour_map(kind).colors, expected[:, :3], atol=1e-12)
+    shades = [text for _, text in plotly_scale(kind)]
+    assert shades == [to_hex(c) for c in colour_map(kind)(np.linspace(0.0, 1.0, 17))]
 
 
 @pytest.mark.parametrize(

@@ -67,7 +67,6 @@ def a_fit() -> FitResult:
         noise=[0.05],
         solves=12,
         solver_known=True,
-        turns_share=0.0,
         converged=True,
         scene=SCENE,
     )

@@ -75,11 +75,11 @@ def span(table: xr.Dataset, name: str) -> str:
     infinite = np.isinf(values) if is_float else np.zeros(values.shape, dtype=bool)
     if bounds(table, name) is not None:
         # A life without an end is printed by the largest that is known.
-        infinite &= False
+        infinite[...] = False
     unknown = np.isnan(values) if is_float else infinite
     counted = ~(infinite | unknown)
     if not counted.any():
-        return "infinite"
+        return "infinite" if infinite.any() else "no number"
     ends = [
         np.unravel_index(int(find(np.where(counted, values, fill))), values.shape)
         for find, fill in ((np.argmin, np.inf), (np.argmax, -np.inf))

@@ -58,12 +58,6 @@ METHODS: dict[str, dict[str, MethodDescriptorType]] = {}
 OTHERS_TAKE = {"LoadPath.waypoints": "LoadPath.force"}
 
 
-#: Closed forms that are made from a normal contact.
-OF_HERTZ = ("CattaneoMindlin",)
-#: What the normal contact and the methods of a closed form take, by names that users try.
-LOADS_AND_SHAPES = {"R", "radius", "W", "P", "force", "T", "T_x", "Q", "a", "p_0"}
-
-
 def guard_methods(kind: type) -> None:
     """Put the methods of a class behind :func:`refusing`."""
     METHODS[kind.__name__] = {
@@ -93,6 +87,7 @@ def guard_constructor(kind: type, make: Callable[..., Any]) -> None:
         return make(cls, *values, **keywords)
 
     __new__.__signature__ = signature.replace(parameters=[CLASS, *signature.parameters.values()])  # type: ignore[attr-defined]
+    __new__.__doc__ = kind.__doc__
     __new__.__qualname__ = f"{kind.__qualname__}.__new__"
     __new__.__module__ = kind.__module__
     kind.__new__ = staticmethod(refusing(__new__, kind.__name__))  # type: ignore[method-assign]
@@ -264,14 +259,6 @@ def refuse_call(
     name: str, parameters: list[inspect.Parameter], values: Sequence[Any], keywords: dict[str, Any]
 ) -> TypeError | None:
     """Return the refusal of arguments with unknown names or too many values; None if they fit."""
-    has_contact = len(values) > 1 or "hertz" in keywords
-    extra = set(keywords) - {"hertz", "bodies", "mu"}
-    if name in OF_HERTZ and extra <= LOADS_AND_SHAPES and not (has_contact and not extra):
-        contact = "fret.reference.hertz(R=5e-3, bodies=bodies, W=50.0)"
-        return TypeError(
-            f"{name} takes the normal contact and no force along x, which its methods take: "
-            f"{name}({contact}, bodies=bodies, mu=0.5).stick_radius(12.0)"
-        )
     # The first value of a constructor is the class.
     if name == "Material" and len(values) == 2 and not keywords:
         return TypeError(

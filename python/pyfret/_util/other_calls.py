@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
-__all__ = ["WRITTEN_ELSEWHERE"]
+__all__ = ["PARTIAL_SLIP", "WRITTEN_ELSEWHERE"]
+
+#: How the closed form of partial slip is made and asked.
+PARTIAL_SLIP = (
+    "CattaneoMindlin(fret.reference.hertz(R=5e-3, bodies=bodies, W=50.0), bodies=bodies, mu=0.5)"
+    ".stick_radius(12.0)"
+)
 
 #: Words for what is elastic between a contact and the gauge of its rig.
 RIG = (
@@ -40,6 +46,10 @@ WRITTEN_ELSEWHERE: dict[str, dict[str, str]] = {
     ),
     **dict.fromkeys(WITH_SCENE, dict.fromkeys(RIG, IN_SCENE)),
     "run": dict.fromkeys(RIG, 'it is a parameter of the study, {"rig.stiffness": [1e6, 1e8]}'),
+    "CattaneoMindlin": dict.fromkeys(
+        ("R", "radius", "W", "P", "force", "T", "T_x", "Q", "a", "p_0"),
+        f"it takes the normal contact, and its methods the force along x: {PARTIAL_SLIP}",
+    ),
     "wear.Wear": dict.fromkeys(
         ("error", "error_bars", "errors"),
         'every run of wear has its errors, worn.error_of("depth") and worn.error_of("volume")',

@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 
 from pyfret._util.echo import abridge_error
 from pyfret._util.keywords import unknown_keyword
+from pyfret._util.other_calls import PARTIAL_SLIP
 
 __all__ = ["refuse_clearly", "refuse_keywords"]
 
@@ -28,7 +29,7 @@ NOTE = re.compile(r"while processing '(\w+)'")
 VALUE = re.compile(r"[\"'\d(\[{<+-]|inf\b|nan\b|True\b|False\b|None\b")
 #: Refusal of Python to call a function without a required argument.
 MISSING = re.compile(
-    r"(\w+)\(\) missing \d+ required (?:keyword-only|positional) arguments?: (.+)$"
+    r"(\w+)\(\) missing \d+ required (?:keyword|keyword-only|positional) arguments?: (.+)$"
 )
 #: Refusal of Python to call a value.
 NOT_CALLABLE = re.compile(r"'(\w+)' object is not callable")
@@ -40,6 +41,7 @@ REPEATED = (str, float, int, list, tuple, set, dict, bytes, type, BuiltinFunctio
 SHOWN = 50
 #: Ends of refusals of calls without a required argument, by the functions.
 EXAMPLES = {
+    "CattaneoMindlin": f", such as {PARTIAL_SLIP}",
     "load_factors": ', such as result.load_factors("Ti-6Al-4V")',
     "first_yield": '; a result has it in result.load_factors("Ti-6Al-4V").least("von_mises")',
     "life": ', such as result.life("Ti-6Al-4V")',

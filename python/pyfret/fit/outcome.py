@@ -160,8 +160,6 @@ class FitResult(Saveable, HoldsArrays):
     solver_known : bool
         Whether a solve on cells twice as wide and one with half of the increments gave the error of
         the solver. Else the confidence does not contain it.
-    turns_share : float
-        Largest part that uncertain turns of loops have in the solver's error of an unknown, 0 to 1.
     converged : bool
         Whether the search ended by itself.
     scene : Scene
@@ -170,6 +168,8 @@ class FitResult(Saveable, HoldsArrays):
         Samples of the unknowns, where they were asked for.
     left_out : tuple of str
         Offsets of loops, "tilt" or "drift", that are fitted by default and were left out here.
+    turns_share : float
+        Largest part that uncertain turns of loops have in the solver's error of an unknown, 0 to 1.
     """
 
     known: dict[str, Known]
@@ -182,11 +182,11 @@ class FitResult(Saveable, HoldsArrays):
     noise: list[float]
     solves: int
     solver_known: bool
-    turns_share: float
     converged: bool
     scene: Scene
     posterior: Posterior | None = None
     left_out: tuple[str, ...] = ()
+    turns_share: float = 0.0
 
     def __getitem__(self, key: str) -> float:
         """The value of an unknown."""
