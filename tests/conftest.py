@@ -6,6 +6,7 @@ import os
 import shutil
 import sys
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -32,7 +33,30 @@ def _close_figures() -> Iterator[None]:
         sys.modules["matplotlib.pyplot"].close("all")
 
 
+@pytest.fixture
+def without_layout(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Draw figures without the rounds of layout, which are most of the time of a small figure.
+
+    `test_every_figure.py` and `test_figures.py` look at the layout.
+    """
+    import pyfret.plot  # noqa: F401
+
+    # The package gives the function of this name.
+    monkeypatch.setattr(sys.modules["pyfret.plot.style"], "settle", lambda *_: None)
+
+
+@pytest.fixture
+def without_overview(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leave the six panels out of pages: `test_report.py` draws them, which takes seconds."""
+    from matplotlib.figure import Figure
+
+    monkeypatch.setattr("pyfret.plot.overview", lambda *_: Figure())
+
+
 ROOT = Path(__file__).parents[1]
+
+#: Computes the points of a study in this process. A process of its own imports the package anew.
+HERE = ThreadPoolExecutor(1)
 
 R, W, MU = 0.018, 1e3, 0.3
 # Relative tolerance of the solutions, what the bounds of the tests are multiples of.

@@ -247,6 +247,7 @@ def test_what_cannot_be_written_is_refused_before_anything_is_solved(
     assert not out.exists()
 
 
+@pytest.mark.usefixtures("without_overview")
 def test_every_command_tells_programs_what_came_out(
     store: Path, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:

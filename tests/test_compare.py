@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import pyfret as fret
-from conftest import ROOT
+from conftest import HERE, ROOT
 from pyfret import fatigue, wear
 from pyfret.study import Candidate
 
@@ -80,7 +80,7 @@ def compared(tmp_path_factory: pytest.TempPathFactory) -> tuple[fret.study.Compa
     position = tmp_path_factory.mktemp("compare") / "study.zarr"
     scene, path = contact()
     comparison = fret.compare(
-        bodies(), scene, path, cycles=1e3, executor=1, out=position, progress=False
+        bodies(), scene, path, cycles=1e3, executor=HERE, out=position, progress=False
     )
     return comparison, position
 
@@ -135,7 +135,7 @@ def test_a_margin_says_what_the_stress_is_and_what_is_doubted() -> None:
         path,
         questions=["life"],
         criterion="crossland",
-        executor=1,
+        executor=HERE,
         progress=False,
     )
     assert float(at_a_point.dataset.safety_of_substrate_L[0]) == 0.0
@@ -147,7 +147,7 @@ def test_a_margin_says_what_the_stress_is_and_what_is_doubted() -> None:
             path,
             questions=["life"],
             criterion=criterion,
-            executor=1,
+            executor=HERE,
             progress=False,
         )
         table = comparison.summary()
@@ -191,7 +191,7 @@ def test_alike_bodies_make_no_difference() -> None:
         scene,
         path,
         questions=["energy"],
-        executor=1,
+        executor=HERE,
         progress=False,
     )
     verdict = comparison.preference("energy")
@@ -199,7 +199,12 @@ def test_alike_bodies_make_no_difference() -> None:
     assert verdict.worse == ["slippery"]
     assert str(verdict) == "best: one, other (no difference)"
     same = fret.compare(
-        {"one": body, "other": body}, scene, path, questions=["energy"], progress=False, executor=1
+        {"one": body, "other": body},
+        scene,
+        path,
+        questions=["energy"],
+        progress=False,
+        executor=HERE,
     )
     assert "no difference" in same.summary()
 
@@ -213,7 +218,7 @@ def test_it_goes_on_after_an_interrupt(tmp_path: Path) -> None:
         if done == 2:
             raise KeyboardInterrupt
 
-    options = {"questions": ["energy"], "executor": 1, "out": position, "progress": False}
+    options = {"questions": ["energy"], "executor": HERE, "out": position, "progress": False}
     with pytest.raises(KeyboardInterrupt):
         fret.compare(some, scene, path, on_point=stop, **options)  # type: ignore[arg-type]
     progress: list[int] = []
@@ -295,7 +300,7 @@ def test_the_command_reads_a_file(tmp_path: Path) -> None:
     low, best, high = answer["numbers"]["energy"]["values"]["film"]
     assert low < best < high
     options = {"bare": bodies()["bare"], "film": bodies()["film"]}
-    same = fret.compare(options, scene, path, questions=["energy"], executor=1, progress=False)
+    same = fret.compare(options, scene, path, questions=["energy"], executor=HERE, progress=False)
     assert best == pytest.approx(float(same.dataset.energy.sel(candidate="film")))
     assert (tmp_path / "all.png").exists()
     again = command("coatings.toml", folder=tmp_path)

@@ -122,6 +122,7 @@ def test_every_figure_is_drawn(result: fret.Result, units: fret.plot.Units) -> N
         fret.plot.stress_history(envelope, units=units),
         fret.plot.loop_evolution(result),
     ]
+    result.plot(units=units).canvas.draw()
     # A figure without a curve shows the reason.
     assert all(ax.has_data() or ax.images or ax.texts for ax in figures)
     if units == "SI":
@@ -209,6 +210,7 @@ def test_the_largest_stress_keeps_off_the_frame() -> None:
     assert ax.lines[0].get_ydata().max() < 0.95 * ax.get_ylim()[1]
 
 
+@pytest.mark.usefixtures("without_layout")
 def test_six_panels_in_one_figure(result: fret.Result) -> None:
     figure = result.plot()
     figure.canvas.draw()
@@ -237,7 +239,7 @@ def test_no_label_is_cut(name: str, units: fret.plot.Units) -> None:
         result.plot(units=units),
     ]
     for figure in drawn:
-        figure.canvas.draw()
+        figure.draw_without_rendering()
         box, (wide, high) = figure.get_tightbbox(), figure.get_size_inches()
         # All of it is on the page, to a hundredth of an inch.
         assert min(box.x0, box.y0) > -0.01

@@ -13,7 +13,7 @@ import pytest
 from xarray import Dataset
 
 import pyfret as fret
-from conftest import W, sphere_on_flat
+from conftest import HERE, W, sphere_on_flat
 
 pytestmark = pytest.mark.solves
 
@@ -97,6 +97,7 @@ def test_variables_are_found_as_in_xarray(result: fret.Result) -> None:
         (lambda r: fret.Material, AttributeError, r"it is called pyfret.Elastic"),
     ],
 )
+@pytest.mark.usefixtures("without_overview")
 def test_what_is_not_there_is_told_with_what_is(
     result: fret.Result,
     guess: Callable[[fret.Result], object],
@@ -364,7 +365,7 @@ def test_a_word_for_a_parameter_of_a_study_is_answered(
     result: fret.Result, word: str, name: str
 ) -> None:
     with pytest.raises(ValueError, match=rf"{word}: the nearest is {name}$"):
-        fret.study.run(result.scene, {word: [1.0]}, measure="p_max", executor=1, progress=False)
+        fret.study.run(result.scene, {word: [1.0]}, measure="p_max", executor=HERE, progress=False)
 
 
 @pytest.mark.parametrize(

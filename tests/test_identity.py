@@ -12,6 +12,7 @@ import pytest
 import xarray as xr
 
 import pyfret as fret
+from conftest import HERE
 from pyfret.study.identity import code_checksum
 
 pytestmark = pytest.mark.solves
@@ -30,7 +31,7 @@ SCALE = 1.0
 
 def solved(parameters: dict[str, Any], measure: Any, **options: Any) -> fret.study.Study:
     """A study in this process."""
-    text = {"executor": 1, "progress": False} | options
+    text = {"executor": HERE, "progress": False} | options
     return fret.study.run(SCENE, parameters, measure=measure, **text)
 
 
@@ -138,7 +139,7 @@ def test_a_store_of_other_code_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "f.zarr"
     for W, refused in ((10.0, False), (10.0, False), (20.0, True)):
         call = functools.partial(
-            fret.study.run, scenes(W), values, measure="p_max", executor=1, progress=False
+            fret.study.run, scenes(W), values, measure="p_max", executor=HERE, progress=False
         )
         if refused:
             with pytest.raises(fret.errors.StoreError, match="differ in scene"):

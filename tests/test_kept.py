@@ -86,7 +86,9 @@ KINDS = ["Result", "WearResult", "Study", "FitResult", "Cracks"]
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_every_result_has_the_same_manner(every: dict[str, Any], kind: str, tmp_path: Path) -> None:
+def test_every_result_has_the_same_manner(
+    every: dict[str, Any], kind: str, tmp_path: Path, request: pytest.FixtureRequest
+) -> None:
     item = every[kind]
     assert type(item).__name__ == kind
     summary = item.summary()
@@ -94,6 +96,7 @@ def test_every_result_has_the_same_manner(every: dict[str, Any], kind: str, tmp_
     assert item._repr_html_()
     drawn = item.plot()
     assert hasattr(getattr(drawn, "figure", drawn), "savefig")
+    request.getfixturevalue("without_overview")
     item.report(tmp_path / "page.html")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     assert "http" not in page.replace("http://www.w3.org", "").split("<body")[0]

@@ -124,6 +124,7 @@ def test_a_report_evaluates_one_section(run: fret.Result, sections: list[Any]) -
     assert len(sections) == 1
 
 
+@pytest.mark.usefixtures("without_overview")
 def test_the_page_evaluates_one_section(
     sections: list[Any], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:

@@ -297,6 +297,7 @@ def test_the_verdict_of_cycles() -> None:
         fret.solve(indentation(), progress=False).cyclic_response()
 
 
+@pytest.mark.usefixtures("without_overview")
 def test_figures_of_what_has_yielded(tmp_path: Path) -> None:
     """The zone and the residual stress, of states and runs, and in the report."""
     result = fret.solve(indentation(), progress=False)

@@ -49,7 +49,7 @@ def test_a_notebook_shows_a_figure_once(
     vars(notebook).update(Image=bytes, display=shown.append)
     monkeypatch.setitem(sys.modules, "IPython.display", notebook)
     monkeypatch.setattr("matplotlib.get_backend", lambda: "inline")
-    figure = coated.plot()
+    figure = fret.plot.envelope_maps(coated.envelope([0.0, 1e-5], y=0.0))
     assert plt.fignum_exists(figure.number)  # type: ignore[attr-defined]
     figure._ipython_display_()  # type: ignore[attr-defined]
     assert not plt.fignum_exists(figure.number)  # type: ignore[attr-defined]
@@ -101,6 +101,7 @@ def test_the_users_own_settings_stay_as_they_were(coated: fret.Result) -> None:
     assert dict(plt.rcParams) == before
 
 
+@pytest.mark.usefixtures("without_layout")
 def test_the_figures_of_the_paper_in_one_call(coated: fret.Result, tmp_path: Path) -> None:
     saved = coated.dataset.saved_increment.values.tolist()
     results = {2.0: coated}

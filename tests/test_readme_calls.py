@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import pyfret as fret
-from conftest import ROOT
+from conftest import HERE, ROOT
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 TABLE = README.partition("## From a question to a call")[2].partition("\n## ")[0]
@@ -46,7 +46,9 @@ def names_for(question: str, folder: Path) -> dict[str, Any]:
         points = {"body2.coatings.0.thickness": ["1 um", "2 um"], "mu": [0.3, 0.5]}
         if question.startswith("its picture"):
             measure = ["loop_energy", "interface_shear"]
-            names["table"] = fret.study(scene, points, measure=measure, executor=1, progress=False)
+            names["table"] = fret.study(
+                scene, points, measure=measure, executor=HERE, progress=False
+            )
     elif question.startswith(("a measured loop", "a scar", "depth after", "which of two")):
         slides = (
             fret.LoadPath.start().normal(20.0).displace(delta_x=[8e-6, -8e-6, 8e-6], increments=4)

@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 
 import pyfret as fret
+from conftest import HERE
 from pyfret._core import shown
 from pyfret._util.text import html, literal
 
@@ -39,7 +40,12 @@ def sent(tmp_path_factory: pytest.TempPathFactory) -> Path:
         warnings.simplefilter("ignore")
         result.dataset.load().to_zarr(folder / "copy3.zarr", zarr_format=3)
     fret.study.run(
-        SCENE, {"mu": [0.3]}, measure="p_max", executor=1, progress=False, out=folder / "study.zarr"
+        SCENE,
+        {"mu": [0.3]},
+        measure="p_max",
+        executor=HERE,
+        progress=False,
+        out=folder / "study.zarr",
     )
     return folder
 

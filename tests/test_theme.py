@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 from functools import cache
+from itertools import cycle
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -59,9 +60,10 @@ FIGURES = {
 }
 
 
-@pytest.mark.parametrize("user", STYLES)
-@pytest.mark.parametrize("name", FIGURES)
+@pytest.mark.usefixtures("without_layout")
+@pytest.mark.parametrize(("name", "user"), zip(FIGURES, cycle(STYLES), strict=False))
 def test_a_saved_figure_keeps_the_theme(name: str, user: str) -> None:
+    """`test_every_figure.py` has all figures under each of the styles."""
     with plt.style.context(user):
         axes = FIGURES[name]()
         figure = axes.figure

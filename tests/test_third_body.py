@@ -353,6 +353,7 @@ def test_laws_of_wear_may_see_the_third_body() -> None:
 
 
 @pytest.mark.solves
+@pytest.mark.usefixtures("without_overview")
 def test_scar_bed_and_aerated_zone_are_drawn_and_reported(tmp_path: Path) -> None:
     worn = fret.wear.solve(cylinder(48), progress=False, **settings(jumps=2))
     page = tmp_path / "run.html"

@@ -50,6 +50,7 @@ def test_conformal_contacts_are_refused_or_doubted_by_the_body(
     assert pattern[0] in result.summary()
 
 
+@pytest.mark.usefixtures("without_overview")
 def test_doubts_of_the_scene_and_of_the_run_stay_in_the_result_and_its_report(
     tmp_path: Any,
 ) -> None:

@@ -321,6 +321,7 @@ def test_the_nearest_name_of_a_setting_is_offered() -> None:
         fret.wear.solve(line(), body2=fret.wear.Archard(1e-14))
 
 
+@pytest.mark.usefixtures("without_overview")
 @pytest.mark.parametrize("cycling", ["sliding", "march"])
 def test_the_rig_of_a_run_of_wear_is_in_its_scene_and_on_its_page(
     cycling: str, tmp_path: Path
