@@ -50,7 +50,7 @@ def without_overview(monkeypatch: pytest.MonkeyPatch) -> None:
     """Leave the six panels out of pages: `test_report.py` draws them, which takes seconds."""
     from matplotlib.figure import Figure
 
-    monkeypatch.setattr("pyfret.plot.overview", lambda *_: Figure())
+    monkeypatch.setattr("pyfret.plot.overview", lambda *_, **__: Figure())
 
 
 ROOT = Path(__file__).parents[1]

@@ -107,7 +107,9 @@ def test_energies_along_a_coarser_path_are_those_of_the_grid() -> None:
     assert loops[64] == pytest.approx(loops["same"], rel=1.5e-3)
 
 
-@pytest.mark.parametrize("seed", [3, 5, 8])
+@pytest.mark.parametrize(
+    "seed", [5, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (3, 8))]
+)
 def test_energies_of_branches_are_within_their_errors_on_a_coarser_path(seed: int) -> None:
     """The error of a branch does not vanish by chance."""
     ratios = paths.ratios(seed)

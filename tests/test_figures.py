@@ -219,8 +219,17 @@ def test_six_panels_in_one_figure(result: fret.Result) -> None:
     assert all(ax.has_data() or ax.texts for ax in panels)
 
 
-@pytest.mark.parametrize("name", ["crowned roller along a moment", "thin layers", "line"])
-@pytest.mark.parametrize("units", ["auto", "SI"])
+@pytest.mark.parametrize(
+    ("name", "units"),
+    [
+        ("crowned roller along a moment", "auto"),
+        ("thin layers", "SI"),
+        ("line", "auto"),
+        pytest.param("crowned roller along a moment", "SI", marks=pytest.mark.slow),
+        pytest.param("thin layers", "auto", marks=pytest.mark.slow),
+        pytest.param("line", "SI", marks=pytest.mark.slow),
+    ],
+)
 def test_no_label_is_cut(name: str, units: fret.plot.Units) -> None:
     result = fret.solve(SCENES[name], progress=False)
     below = result.at(-1).stress()

@@ -17,7 +17,14 @@ import histories
 pytestmark = [pytest.mark.solves, pytest.mark.filterwarnings("ignore")]
 
 
-@pytest.mark.parametrize(("seed", "points"), [(1, 8), (4, 16), (9, 64)])
+@pytest.mark.parametrize(
+    ("seed", "points"),
+    [
+        (1, 8),
+        pytest.param(4, 16, marks=pytest.mark.slow),
+        pytest.param(9, 64, marks=pytest.mark.slow),
+    ],
+)
 def test_energy_wear_life_and_crack_do_not_depend_on_the_form(seed: int, points: int) -> None:
     """Zigzag, sine, function and file with noise, in one channel or two: within the errors."""
     rows = list(histories.compare(replace(histories.drawn(seed), points=points)))

@@ -7,6 +7,7 @@ import os
 import re
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ import pytest
 
 import pyfret as fret
 from conftest import ROOT
+from pyfret._cli import commands
 
 FRET = ROOT / "target" / "release" / "fret"
 STEEL = fret.Elastic(E=210e9, nu=0.3)
@@ -92,12 +94,33 @@ WAYS: dict[str, list[list[str]]] = {
 LONG = {"verify"}
 
 
+#: Parsers of the commands that ``fret`` hands to Python, which `test_report.py` looks at.
+IN_PYTHON: dict[str, Any] = commands.parser()._subparsers._group_actions[0].choices  # type: ignore[union-attr, assignment]
+
+
 def fret_of(*words: str, folder: Path) -> subprocess.CompletedProcess[str]:
     extra = {"FRET_PYTHON": sys.executable, "MPLBACKEND": "Agg"}
     return subprocess.run(
         [FRET, *words], capture_output=True, text=True, cwd=folder, check=False,
         env={**os.environ, **extra},
     )  # fmt: skip
+
+
+@pytest.fixture
+def ran(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Return a function that runs a command; one of Python runs in this process."""
+
+    def run(*words: str) -> subprocess.CompletedProcess[str]:
+        if words[0] not in IN_PYTHON:
+            return fret_of(*words, folder=folder)
+        monkeypatch.chdir(folder)
+        code = commands.main(words)
+        printed = capsys.readouterr()
+        return subprocess.CompletedProcess(words, code, printed.out, printed.err)
+
+    return run
 
 
 @pytest.fixture(scope="module")
@@ -197,17 +220,25 @@ def test_the_search_for_nulls_finds_them() -> None:
 def test_every_command_with_json_is_walked_over(folder: Path) -> None:
     listed = re.findall(r"^  (\w+)  ", fret_of("--help", folder=folder).stdout, re.MULTILINE)
     assert len(listed) > 10
-    progress = {
-        item for item in listed if "--json" in fret_of(item, "--help", folder=folder).stdout
+    texts = {
+        item: IN_PYTHON[item].format_help()
+        if item in IN_PYTHON
+        else fret_of(item, "--help", folder=folder).stdout
+        for item in listed
     }
-    assert progress - LONG - {"help"} == set(WAYS)
+    with_json = {item for item, text in texts.items() if "--json" in text}
+    assert with_json - LONG - {"help"} == set(WAYS)
 
 
 @pytest.mark.solves
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.usefixtures("without_overview")
 @pytest.mark.parametrize("command", WAYS)
-def test_every_null_has_its_reason(folder: Path, command: str) -> None:
+def test_every_null_has_its_reason(
+    ran: Callable[..., subprocess.CompletedProcess[str]], command: str
+) -> None:
     for direction in WAYS[command]:
-        run = fret_of(*direction, "--json", folder=folder)
+        run = ran(*direction, "--json")
         assert run.returncode == (2 if "wrong.toml" in direction else 0), (direction, run.stderr)
         computed = answers(run.stdout)
         if command != "resume":
@@ -217,15 +248,18 @@ def test_every_null_has_its_reason(folder: Path, command: str) -> None:
 
 
 @pytest.mark.solves
+@pytest.mark.filterwarnings("ignore")
 @pytest.mark.parametrize("material", ["steel_42CrMo4", "titanium_6Al4V"])
-def test_a_threshold_that_rests_on_an_estimate_says_so(folder: Path, material: str) -> None:
+def test_a_threshold_that_rests_on_an_estimate_says_so(
+    ran: Callable[..., subprocess.CompletedProcess[str]], material: str
+) -> None:
     marked = material == "titanium_6Al4V"
     direction = [item if item != "7075" else material for item in WAYS["threshold"][0]]
     direction += ["--distance", "2e-5", "--value", "3"]
-    run = fret_of(*direction, folder=folder)
+    run = ran(*direction)
     assert run.returncode == 0, run.stderr
     assert ("estimate" in run.stdout) == marked
-    (row,) = answers(fret_of(*direction, "--json", folder=folder).stdout)
+    (row,) = answers(ran(*direction, "--json").stdout)
     assert ("estimate" in row) == marked
     # The scene is a line contact.
     assert row["unit"] == "N/m"

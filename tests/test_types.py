@@ -174,7 +174,7 @@ def test_a_program_and_the_pages_are_typed_strictly(tmp_path: Path) -> None:
     configuration = tmp_path / "mypy.ini"
     configuration.write_text("\n".join(settings), encoding="utf-8")
     command = [sys.executable, "-m", "mypy", "--config-file", str(configuration)]
-    command += ["--cache-dir", str(tmp_path / "cache"), *map(str, sorted(tmp_path.glob("*.py")))]
+    command += ["--cache-dir", str(ROOT / ".mypy_cache"), *map(str, sorted(tmp_path.glob("*.py")))]
     checked = subprocess.run(
         command,
         capture_output=True,

@@ -328,6 +328,7 @@ def test_the_script_prints_the_numbers_of_the_page(monkeypatch: pytest.MonkeyPat
 
 
 @pytest.mark.solves
+@pytest.mark.usefixtures("without_layout", "without_overview")
 def test_all_files_of_the_fifth_tab_are_written(tmp_path: Path) -> None:
     scene, names = make_preset("Pad with bulk stress")
     heads = {

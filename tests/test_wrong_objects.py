@@ -98,6 +98,7 @@ def test_closed_forms_print_their_numbers_with_units() -> None:
         assert item.p_H == item.p0  # type: ignore[attr-defined]
 
 
+@pytest.mark.usefixtures("without_layout")
 def test_a_figure_says_what_it_takes_instead_of_what_it_is_given(
     public: Any, record_property: Callable[[str, object], None]
 ) -> None:
