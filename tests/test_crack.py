@@ -311,7 +311,7 @@ def test_command(pulled: fret.Result, tmp_path: Path, capsys: pytest.CaptureFixt
     assert figure.stat().st_size > 0
     assert commands.main(["crack", str(store), "--dS-0", "1e8"]) == 2
     assert "--dK-th" in capsys.readouterr().err
-    grown = ["crack", str(store), "--grow", "tangential_stress", "--lengths", "3e-5,2e-4"]
+    grown = ["crack", str(store), "--grow", "tangential_stress", "--lengths", "1e-4,2e-4"]
     assert commands.main([*grown, "--dK-th", "1e3", "--paris", "1e-11,3"]) == 0
     output = capsys.readouterr().out
     rows = [line for line in output.splitlines() if re.match(r"\s*[\d.]+ um ", line)]

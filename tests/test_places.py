@@ -258,7 +258,7 @@ def test_a_crack_lies_in_the_plane_of_the_contact() -> None:
     assert shifted.dataset.attrs["offset"] == pytest.approx(7 * cell, abs=0.3 * cell)
     assert shifted.K_max == pytest.approx(right.K_max, rel=0.02, abs=1e4)
     assert shifted.arrest(threshold).verdict == right.arrest(threshold).verdict
-    right, shifted = (run.grow_crack(start=5e-6, end=3e-5) for run in (middle, moved))
+    right, shifted = (run.grow_crack(start=1.5e-5, end=3e-5) for run in (middle, moved))
     assert shifted.K_max == pytest.approx(right.K_max, rel=0.02, abs=1e4)
     # The plane through the axis of depth is one that may be given.
     away = moved.crack(offset=0.0, azimuth=0.0)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import pickle
-import signal
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -20,7 +19,8 @@ import pytest
 import xarray as xr
 
 import pyfret as fret
-from conftest import MU, ROOT, R, W, sphere_on_flat
+from conftest import ROOT, R, W, sphere_on_flat
+from dying import DEADLY, dies, dies_once
 from pyfret import citation
 from pyfret.plot.parameters import parameter_label
 from pyfret.study.design import Design
@@ -225,21 +225,6 @@ def test_a_grid_that_is_too_small_grows() -> None:
     assert kept.failed()[0][1].startswith("OffGridError")
 
 
-def dies_once(flag: Path, result: fret.Result) -> float:
-    """Kill the process that measures the point of mu = 0.3 for the first time."""
-    if result.mu == MU and not flag.exists():
-        flag.touch()
-        os.kill(os.getpid(), signal.SIGKILL)
-    return float(result.dataset.p_max.max())
-
-
-def dies(result: fret.Result) -> float:
-    """Kill the process that measures the point of mu = 0.3."""
-    if result.mu == MU:
-        os.kill(os.getpid(), signal.SIGKILL)
-    return float(result.dataset.p_max.max())
-
-
 def test_processes_share_the_points_and_one_may_die(
     whole: fret.study.Study, tmp_path: Path
 ) -> None:
@@ -251,7 +236,7 @@ def test_processes_share_the_points_and_one_may_die(
 
 
 def test_a_point_that_kills_its_process_is_given_up() -> None:
-    study = fret.study.run(SCENE, {"mu": [0.2, MU, 0.4]}, measure=dies, executor=1)
+    study = fret.study.run(SCENE, {"mu": [0.2, DEADLY, 0.4]}, measure=dies, executor=1)
     assert study.dataset.status.values.tolist() == [1, 2, 1]
     assert "killed 3 times" in study.failed()[0][1]
 
