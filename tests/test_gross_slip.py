@@ -90,7 +90,7 @@ def test_places_follow_the_size_of_a_spot() -> None:
         body1=fret.Body(STEEL, shape=shape),
         body2=fret.Body(STEEL),
         friction=MU,
-        grid=fret.Grid.strip(extent=3 * wave, n=900),
+        grid=fret.Grid.strip(extent=3 * wave, n=450),
     )
     law = fret.wear.Archard(k=1e-16)
     depths = []

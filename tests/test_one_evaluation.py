@@ -118,13 +118,14 @@ def test_sections_that_are_asked_for_are_evaluated(run: fret.Result, sections: l
     assert len(sections) == 2
 
 
+@pytest.mark.usefixtures("without_layout")
 def test_a_report_evaluates_one_section(run: fret.Result, sections: list[Any]) -> None:
     figures(run)
     run.plot()
     assert len(sections) == 1
 
 
-@pytest.mark.usefixtures("without_overview")
+@pytest.mark.usefixtures("without_layout")
 def test_the_page_evaluates_one_section(
     sections: list[Any], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
@@ -187,6 +188,7 @@ def test_measures_of_a_study_share_sections_and_cracks(
         np.testing.assert_array_equal(numbers[name], alone[name])
 
 
+@pytest.mark.usefixtures("without_layout")
 def test_the_command_report_evaluates_one_section(
     sections: list[Any], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
