@@ -256,7 +256,9 @@ def turned(axis: str, s_y: float, quarter: int) -> xr.Dataset:
     return fret.solve(scene, path, save="all", progress=False).dataset
 
 
-@pytest.mark.parametrize(("s_y", "quarter"), [(5e8, 2), (6e8, 4)])
+@pytest.mark.parametrize(
+    ("s_y", "quarter"), [(5e8, 2), pytest.param(6e8, 4, marks=pytest.mark.slow)]
+)
 def test_a_scene_turned_by_90_degrees_yields_the_same(s_y: float, quarter: int) -> None:
     """Tractions and plastic strain do not depend on the axis of the force."""
     x, y = (turned(axis, s_y, quarter) for axis in "xy")
