@@ -53,7 +53,11 @@ def test_mu_and_the_rig_are_found_from_a_german_file(tmp_path: Path) -> None:
     file = tmp_path / "loop.csv"
     file.write_text("# Prüfstand 3\nWeg [µm];Kraft [N]\n" + "\n".join(rows), encoding="utf-8")
     loops = fret.fit.read_loops(file)
-    fitted = fret.fit(ball(), loops, unknown={"mu": (0.2, 1.2), "rig.stiffness": (1e6, 1e8)})
+    cycle = fret.LoadPath.start().normal(W).cycles(1, delta_x=6e-6)
+    scene = ball().replace(path=cycle)
+    fitted = fret.fit(scene, loops, unknown={"mu": (0.2, 1.2), "rig.stiffness": (1e6, 1e8)})
+    # The scene that is returned keeps its path, through the rig that was found.
+    assert fitted.scene.path == cycle.rig(fitted.known["rig.stiffness"].value)
     for key, value in {"mu": 0.62, "rig.stiffness": 8e6}.items():
         unknown = fitted.known[key]
         assert unknown.low < value < unknown.high, f"{key}: {unknown}"

@@ -119,6 +119,7 @@ def fit(
     if not isinstance(scene, Scene):
         scene = Scene.from_file(scene)
     sets: list[Data] = list(data) if isinstance(data, Sequence) else [data]
+    path = scene.path
     if all(isinstance(item, Loops | Indentation) for item in sets):
         scene = under_normal_force(scene)
     if unknown is None and sets and all(isinstance(item, Loops) for item in sets):
@@ -141,6 +142,7 @@ def fit(
                     solves = fitted.solves + without.solves
                     fitted = replace(without, solves=solves, left_out=left_out)
                     search, best = simpler, best_without
+        fitted = replace(fitted, scene=with_path(fitted.scene, path))
         return search.with_posterior(fitted, best, posterior, seed) if posterior else fitted
 
 
@@ -152,6 +154,14 @@ def under_normal_force(scene: Scene) -> Scene:
     W = max((branch.W or 0.0 for branch in path.branches), default=0.0)
     pressed = LoadPath.start().normal(W, increments=1) if W > 0.0 else LoadPath.start()
     return scene.replace(path=pressed.rig(path.rig_stiffness))
+
+
+def with_path(scene: Scene, path: LoadPath) -> Scene:
+    """Return the scene with a path through its own rig, or as it is where the path is refused."""
+    try:
+        return scene.replace(path=path.rig(scene.path.rig_stiffness))
+    except ValueError:
+        return scene
 
 
 def moves(branch: Branch) -> bool:
