@@ -63,17 +63,18 @@ def solve(scene: fret.Scene, **options: Any) -> fret.Result:
 
 
 def of_error_bars(repeat: int, divisor: int) -> list[tuple[str, Cost, float]]:
-    """Measure runs with error bars over the runs alone."""
+    """Measure runs with error bars of both kinds over the runs alone."""
     rows = []
     for kind in ("bare", "coated"):
         for cells in (64 // divisor, 128 // divisor):
             scene = contact(kind, cells)
             solve(scene)
             alone = measure(partial(solve, scene), repeat)
-            bars = measure(partial(solve, scene, error=True), repeat)
-            title = f"error bars, {kind}, {cells} cells, over the solution"
-            added = Cost(bars.processor - alone.processor, bars.wall - alone.wall)
-            rows.append((title, added, added.processor / alone.processor))
+            for error in (True, "coarser"):
+                bars = measure(partial(solve, scene, error=error), repeat)
+                title = f"`error={error!r}`, {kind}, {cells} cells, over the solution"
+                added = Cost(bars.processor - alone.processor, bars.wall - alone.wall)
+                rows.append((title, added, added.processor / alone.processor))
     return rows
 
 

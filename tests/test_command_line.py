@@ -165,6 +165,14 @@ def test_the_summary_for_programs_has_the_error_bars(tmp_path: Path) -> None:
     for number in ("p_max", "delta_z", "contact_radius"):
         assert branch[number]["total"] > 0.0
         assert branch[number]["total"] == float(getattr(bars, number).sel(part="total"))
+    ran = fret_run(
+        "run", tmp_path / "scene.toml", "-o", out, "--overwrite", "--json", "--error=coarser"
+    )
+    assert ran.returncode == 0, ran.stderr
+    (branch,) = json.loads(ran.stdout)["error_bars"]
+    result = fret.solve(tmp_path / "scene.toml", error="coarser", progress=False)
+    of_python = result.error_bars().sel(part="total").isel(branch=0)
+    assert branch["p_max"]["total"] == float(of_python.p_max)
 
 
 @pytest.mark.solves

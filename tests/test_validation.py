@@ -75,6 +75,24 @@ def test_error_bars_tell_their_parts() -> None:
     assert any("20 or more cells" in doubt for doubt in few.doubts)
 
 
+@pytest.mark.parametrize("cells", [24, 33, 48, 64])
+def test_error_bars_of_coarser_grids_cover_hertz(cells: int) -> None:
+    result = fret.solve(HERTZ.scene(cells), progress=False, error="coarser")
+    bars = result.error_bars().sel(part="total").isel(branch=0)
+    last = result.at(-1).dataset
+    for name, truth in (
+        ("p_max", bodies.ROUND.p0),
+        ("delta_z", bodies.ROUND.delta_z),
+        ("contact_radius", bodies.ROUND.a),
+    ):
+        error_bar = float(bars[name])
+        ratio = abs(float(last[name]) - truth) / error_bar
+        assert ratio < 1.5, name
+        assert error_bar < 0.07 * truth, name
+    with pytest.raises(TypeError, match='True, False, or "coarser"'):
+        fret.solve(HERTZ.scene(cells), progress=False, error="finest")
+
+
 @pytest.mark.parametrize(
     ("amplitude", "c", "approach", "p", "b", "deepest", "volume"),
     [

@@ -4201,7 +4201,7 @@ def solve(
     store: str | PathLike[str],
     checkpoint: float = 5.0,
     overwrite: bool = False,
-    error: bool = False,
+    error: bool | Literal["coarser"] | None = None,
     like: Scene | None = None,
     on_increment: Callable[[int, int], object] | None = None,
 ) -> None:
@@ -4217,7 +4217,7 @@ def solve(
 def solve_in_memory(
     scene: Scene,
     *,
-    error: bool = False,
+    error: bool | Literal["coarser"] | None = None,
     like: Scene | None = None,
     on_increment: Callable[[int, int], object] | None = None,
 ) -> tuple[dict[str, Variable], str]:

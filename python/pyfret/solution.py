@@ -36,7 +36,7 @@ def solve(
     out: str | os.PathLike[str] | None = None,
     checkpoint: float = 5.0,
     overwrite: bool = False,
-    error: bool = False,
+    error: bool | Literal["coarser"] = False,
     like: Scene | None = None,
     progress: bool = True,
 ) -> Result:
@@ -65,9 +65,11 @@ def solve(
         run.
     overwrite : bool
         Whether a store at `out` is replaced, once the first increment is solved (default False).
-    error : bool
+    error : bool or "coarser"
         Whether to run the path again on coarser and finer grids and with fewer increments, some
-        times as long, for :meth:`Result.error_bars`.
+        times as long, for :meth:`Result.error_bars`. With ``"coarser"`` the errors come from
+        coarser grids alone. This takes 0.8 to 1.4 times the work of the run instead of 5 to 8
+        times. The errors are about twice as large.
     like : Scene, optional
         A neighbouring scene with the same kind of path, where increments are chosen: those that it
         needs are the first guess, which one comparison checks. Its own are chosen once in a

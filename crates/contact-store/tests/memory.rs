@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 use cap::Cap;
 use contact_core::Scene;
-use contact_core::estimate::{BranchEnds, choose_increments, error_bars, finest};
+use contact_core::estimate::{BranchEnds, ErrorMethod, choose_increments, error_bars, finest};
 use contact_core::kernels::clear_cache;
 use contact_core::march::solve;
 use contact_core::plan::Plan;
@@ -97,7 +97,14 @@ fn a_run_takes_no_more_memory_than_announced() {
         let increments = solve(&scene, &mut ends).unwrap();
         let tractions = ends.tractions;
         if bars {
-            error_bars(&scene, &increments, &tractions, &Arc::default()).unwrap();
+            error_bars(
+                &scene,
+                &increments,
+                &tractions,
+                ErrorMethod::FinerGrid,
+                &Arc::default(),
+            )
+            .unwrap();
         }
         let (taken, announced) = (MEMORY.max_allocated() as f64 / 1e6, announced / 1e6);
         if taken > before {

@@ -26,6 +26,8 @@ pub(crate) const MASK: PyStaticExpr = type_hint_subscript!(
 pub(crate) const ANY: PyStaticExpr = type_hint_identifier!("typing", "Any");
 /// A name, or a word of those that are allowed.
 pub(crate) const TEXT: PyStaticExpr = type_hint_identifier!("builtins", "str");
+/// Yes or no.
+pub(crate) const BOOL: PyStaticExpr = type_hint_identifier!("builtins", "bool");
 /// A number.
 pub(crate) const FLOAT: PyStaticExpr = type_hint_identifier!("builtins", "float");
 /// A whole number.

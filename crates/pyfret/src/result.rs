@@ -6,13 +6,15 @@ use std::time::Duration;
 
 use contact_core::Error;
 use contact_core::estimate::{
-    BranchEnds, ErrorBars, choose_increments, choose_increments_like, error_bars,
+    BranchEnds, ErrorBars, ErrorMethod, choose_increments, choose_increments_like, error_bars,
 };
 use contact_core::march::{Increment, March, Observer};
 use contact_store::{Columns, Resumed, StoreWriter};
+use pyo3::type_hint_union;
 use serde_json::Value;
 
 use crate::error::{Answer, to_python};
+use crate::hints;
 use crate::prelude::*;
 use crate::scene::Scene;
 use crate::scene::friction_law::own_law;
@@ -92,12 +94,33 @@ fn check(scene: &Scene) -> Answer<()> {
 /// The error bars of a run, or why there are none.
 type Bars = Result<Vec<ErrorBars>, Error>;
 
-/// Runs through the whole path with increments chosen like the ones of `like`, if given; returns the error bars if
-/// `error`.
+/// Whether errors are estimated, and from which grids: a flag, or the word "coarser".
+pub(crate) struct ErrorGrids(Option<ErrorMethod>);
+
+impl<'py> FromPyObject<'_, 'py> for ErrorGrids {
+    type Error = PyErr;
+
+    const INPUT_TYPE: PyStaticExpr = type_hint_union!(hints::BOOL, hints::word!("coarser"));
+
+    /// Takes a flag, or the word "coarser".
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if value.extract::<&str>().is_ok_and(|word| word == "coarser") {
+            return Ok(Self(Some(ErrorMethod::CoarserGrids)));
+        }
+        let Ok(is_asked) = value.extract::<bool>() else {
+            let allowed = "True, False, or \"coarser\" for errors from coarser grids alone";
+            return Err(must_be(&value, allowed));
+        };
+        Ok(Self(is_asked.then_some(ErrorMethod::FinerGrid)))
+    }
+}
+
+/// Runs through the whole path with increments chosen like the ones of `like`, if given; returns the error bars by a
+/// method, if given.
 fn whole(
     scene: &Scene,
     like: Option<&Scene>,
-    error: bool,
+    method: Option<ErrorMethod>,
     watch: &mut dyn Observer,
 ) -> Result<Option<Bars>, Error> {
     let stop = watch.stop().unwrap_or_default();
@@ -107,10 +130,10 @@ fn whole(
         None => choose_increments(&scene.0, &stop)?,
     };
     let increments = contact_core::march::solve(scene, &mut ends)?;
-    if !error {
+    let Some(method) = method else {
         return Ok(None);
-    }
-    match error_bars(scene, &increments, &ends.tractions, &stop) {
+    };
+    match error_bars(scene, &increments, &ends.tractions, method, &stop) {
         Err(stopped @ Error::Interrupted { .. }) => Err(stopped),
         bars => Ok(Some(bars)),
     }
@@ -123,21 +146,22 @@ fn whole(
 /// `on_increment` is called with the number of each increment solved and their number in all,
 /// which is known once they are chosen.
 #[pyfunction]
-#[pyo3(signature = (scene, *, store, checkpoint: "float" = 5.0, overwrite = false, error = false, like = None, on_increment: "Callable[[int, int], object] | None" = None))]
+#[pyo3(signature = (scene, *, store, checkpoint: "float" = 5.0, overwrite = false, error = None, like = None, on_increment: "Callable[[int, int], object] | None" = None))]
 pub(crate) fn solve(
     py: Python<'_>,
     scene: Scene,
     store: PathBuf,
     #[pyo3(from_py_with = number)] checkpoint: f64,
     overwrite: bool,
-    error: bool,
+    error: Option<ErrorGrids>,
     like: Option<Scene>,
     on_increment: Option<Py<PyAny>>,
 ) -> Answer<()> {
     check(&scene)?;
     let writer = StoreWriter::create(&store, overwrite)?.with_interval(interval(checkpoint)?);
+    let method = error.and_then(|grids| grids.0);
     let run = |watch: &mut dyn Observer| {
-        match whole(&scene, like.as_ref(), error, watch)? {
+        match whole(&scene, like.as_ref(), method, watch)? {
             Some(Ok(bars)) => contact_store::write_error_bars(&store, &bars)?,
             Some(Err(why)) => drop(contact_store::write_no_error_bars(&store, &why)?),
             None => {}
@@ -152,16 +176,17 @@ pub(crate) fn solve(
 /// These are the variables, each with dimensions, values and attributes as xarray takes them, and
 /// the attributes of the run, as JSON.
 #[pyfunction]
-#[pyo3(signature = (scene, *, error = false, like = None, on_increment: "Callable[[int, int], object] | None" = None) -> "tuple[dict[str, Variable], str]")]
+#[pyo3(signature = (scene, *, error = None, like = None, on_increment: "Callable[[int, int], object] | None" = None) -> "tuple[dict[str, Variable], str]")]
 pub(crate) fn solve_in_memory(
     py: Python<'_>,
     scene: Scene,
-    error: bool,
+    error: Option<ErrorGrids>,
     like: Option<Scene>,
     on_increment: Option<Py<PyAny>>,
 ) -> PyResult<(Bound<'_, PyDict>, String)> {
     check(&scene)?;
-    let run = |watch: &mut dyn Observer| whole(&scene, like.as_ref(), error, watch);
+    let method = error.and_then(|grids| grids.0);
+    let run = |watch: &mut dyn Observer| whole(&scene, like.as_ref(), method, watch);
     let (mut columns, bars) = watched(py, Columns::default(), on_increment, run)?;
     if let Some(bars) = bars {
         columns.set_error_bars(&bars, &scene.0.grid);

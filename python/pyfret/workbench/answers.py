@@ -176,7 +176,7 @@ def solve_in_full(scene: Scene) -> Result:
     whole = scene.replace(save="all")
 
     def run() -> Result:
-        return quietly(lambda: solve(whole, error=True, progress=False))
+        return quietly(lambda: solve(whole, error="coarser", progress=False))
 
     return RESULTS.fetch(whole.to_toml(), run)
 

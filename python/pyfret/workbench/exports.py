@@ -23,7 +23,7 @@ __all__ = ["COMMANDS", "read_link", "write_file", "write_link", "write_script"]
 #: The same contact on the command line.
 COMMANDS = """\
 fret check scene.toml
-fret run scene.toml -o contact.zarr --error
+fret run scene.toml -o contact.zarr --error=coarser
 fret report contact.zarr -o report.html
 fret export contact.zarr -o numbers.csv
 fret workbench scene.toml"""
@@ -47,7 +47,7 @@ def write_script(scene: Scene, names: dict[str, str], criterion: str) -> str:
         "import pyfret as fret",
         "",
         f"scene = fret.Scene.from_toml({quoted(scene.to_toml())})",
-        'result = fret.solve(scene, save="all", error=True)',
+        'result = fret.solve(scene, save="all", error="coarser")',
         "print(result.summary())",
         "below = result.at(-1).stress()",
         *(

@@ -20,7 +20,7 @@ pub use bar::Bar;
 pub use branch_ends::BranchEnds;
 pub use choice::{choose_increments, estimate_path_error};
 pub use coarser::{coarsest, means};
-pub use error_bars::{ErrorBars, error_bars};
+pub use error_bars::{ErrorBars, ErrorMethod, error_bars};
 pub use finer::finest;
 pub use first_yield::first_yield;
 pub use neighbour::choose_increments_like;

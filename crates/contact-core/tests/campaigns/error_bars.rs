@@ -10,14 +10,16 @@ use std::fmt::Write as _;
 use std::sync::Arc;
 
 use crate::splitmix::Draw;
-use contact_core::estimate::{Bar, BranchEnds, ErrorBars, choose_increments, error_bars, means};
-use contact_core::march::{BranchSummary, Tractions, solve, summarise};
+use contact_core::estimate::{
+    Bar, BranchEnds, ErrorBars, ErrorMethod, choose_increments, error_bars, means,
+};
+use contact_core::march::{BranchSummary, Increment, Tractions, solve, summarise};
 use contact_core::scene::{Elastic, Scene};
 use contact_reference::hertz;
 use ndarray::Array2;
 
-/// True error over estimate: at most the second, in 95 % of a number, and at least the first, in 80
-/// %.
+/// True error over estimate: at most the second, in 95 % of a number, and at least the first, in so
+/// many percent as [`METHODS`] says.
 const HONEST: (f64, f64) = (0.2, 1.5);
 /// Cells each way and of the reference, and increments of the reference over those chosen.
 const CELLS: usize = 48;
@@ -26,6 +28,14 @@ const FINER: usize = 4;
 /// Seeds differ from those of the path's errors, and from those that orders and weights of the bars
 /// were chosen on (from 1000 to 4000).
 const FIRST_SEED: u64 = 5000;
+
+/// Both sources of the errors of cells, and the ratios at least 0.2 that are asked, in percent. A normal error
+/// whose scale is the bar has 84 %, with bars twice as long 69 %. Least errors of rims make bars longer, and
+/// shifts fall faster than the order 1.5 of the coarser grids.
+const METHODS: [(&str, ErrorMethod, usize); 2] = [
+    ("finer grid", ErrorMethod::FinerGrid, 70),
+    ("coarser grids alone", ErrorMethod::CoarserGrids, 40),
+];
 
 /// Largest moment over mu W a_H: two thirds of 3 pi/16, the moment of full slip, since a stiff
 /// coating makes the contact smaller.
@@ -168,22 +178,41 @@ fn field_error(ours: &[Tractions], reference: &[Tractions], of: std::ops::Range<
     off.fold(0.0, f64::max) / largest.fold(f64::MIN_POSITIVE, f64::max)
 }
 
-/// True over estimated errors: of the fields of a scene, and of the numbers of all of its branches.
-fn ratios(seed: u64) -> Option<Ratios> {
+/// True over estimated errors of both [`METHODS`]: of the fields of a scene, and of the numbers of all of its
+/// branches.
+fn ratios(seed: u64) -> Option<[Ratios; 2]> {
     let text = drawn(seed);
     let (mut nobody, mut no_one) = ((), ());
     let (coarse, fine) = chosen(&text)?;
     let mut ends = BranchEnds::new(&mut nobody);
     // A soft coating may spread the contact over the border.
     let increments = solve(&coarse, &mut ends).ok()?;
-    let bars = error_bars(&coarse, &increments, &ends.tractions, &Arc::default()).ok()?;
     let mut true_ends = BranchEnds::new(&mut no_one);
     let reference = solve(&fine, &mut true_ends).ok()?;
+    let of_method = |method| {
+        println!("{seed}, {method:?}");
+        let tractions = &ends.tractions;
+        let bars = error_bars(&coarse, &increments, tractions, method, &Arc::default()).ok()?;
+        Some(ratios_of_bars(
+            &bars,
+            [&increments, &reference],
+            [tractions, &true_ends.tractions],
+        ))
+    };
+    Some([of_method(METHODS[0].1)?, of_method(METHODS[1].1)?])
+}
+
+/// True over estimated errors, where a run and its reference ended with these tractions.
+fn ratios_of_bars(
+    bars: &[ErrorBars],
+    [increments, reference]: [&[Increment]; 2],
+    [tractions, true_tractions]: [&[Tractions]; 2],
+) -> Ratios {
     let mut numbers = Vec::new();
-    let (ours, truth) = (summarise(&increments), summarise(&reference));
+    let (ours, truth) = (summarise(increments), summarise(reference));
     for (name, value, of) in NUMBERS {
         let largest = truth.iter().map(|b| value(b).abs()).fold(0.0, f64::max);
-        for ((ours, truth), bar) in ours.iter().zip(&truth).zip(&bars) {
+        for ((ours, truth), bar) in ours.iter().zip(&truth).zip(bars) {
             let error = (value(ours) - value(truth)).abs();
             // What never moves or slips, like delta_x under W alone, has no error but what single
             // precision rounds.
@@ -201,11 +230,11 @@ fn ratios(seed: u64) -> Option<Ratios> {
         }
     }
     let largest = |of: fn(&ErrorBars) -> f64| bars.iter().map(of).fold(0.0, f64::max);
-    let error = |of| field_error(&ends.tractions, &true_ends.tractions, of);
+    let error = |of| field_error(tractions, true_tractions, of);
     let (p, q) = (error(0..1), error(1..3));
     let (bar_p, bar_q) = (largest(|b| b.p.total), largest(|b| b.q.total));
-    println!("{seed}: p {p:.2e} of {bar_p:.2e}, q {q:.2e} of {bar_q:.2e}");
-    Some(([p / bar_p, q / bar_q], numbers))
+    println!("  p {p:.2e} of {bar_p:.2e}, q {q:.2e} of {bar_q:.2e}");
+    ([p / bar_p, q / bar_q], numbers)
 }
 
 /// How many of these are small enough, how many large enough, and a line that says so.
@@ -234,12 +263,29 @@ fn error_bars_are_honest() {
     let asked = std::env::var("FRET_ERROR_BARS").ok();
     let scenes: usize = asked.map_or(2, |n| n.parse().expect("a number of scenes"));
     let found: Vec<_> = (FIRST_SEED..).filter_map(ratios).take(scenes).collect();
-    let (mut lines, mut dishonest, mut all) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut lines, mut dishonest) = (Vec::new(), Vec::new());
+    for (k, (title, _, least)) in METHODS.into_iter().enumerate() {
+        let of_method: Vec<_> = found.iter().map(|both| &both[k]).collect();
+        lines.push(title.into());
+        judge(&of_method, least, &mut lines, &mut dishonest);
+    }
+    println!("{}", lines.join("\n"));
+    if let Ok(document) = std::env::var("FRET_ERROR_BARS_REPORT") {
+        let table = format!("```text\n{}\n```\n", lines.join("\n"));
+        crate::document::insert(&document, "error-bars", &table);
+    }
+    assert!(dishonest.is_empty(), "{}", dishonest.join("\n"));
+}
+
+/// Adds a line for each number, and those of too many large ratios, or fewer than `least` percent at least 0.2, to
+/// `dishonest`.
+fn judge(found: &[&Ratios], least: usize, lines: &mut Vec<String>, dishonest: &mut Vec<String>) {
+    let mut all = Vec::new();
     let mut look = |name: &str, ratios: &[f64]| {
         let ([below, above], line) = summary(name, ratios);
         // Of a few scenes one number more may be odd.
         let odd = usize::from(ratios.len() < 20);
-        if 100 * (below + odd) < 95 * ratios.len() || 100 * (above + odd) < 80 * ratios.len() {
+        if 100 * (below + odd) < 95 * ratios.len() || 100 * (above + odd) < least * ratios.len() {
             dishonest.push(line.clone());
         }
         lines.push(line);
@@ -257,10 +303,4 @@ fn error_bars_are_honest() {
         }
     }
     lines.push(summary("all numbers", &all).1);
-    println!("{}", lines.join("\n"));
-    if let Ok(document) = std::env::var("FRET_ERROR_BARS_REPORT") {
-        let table = format!("```text\n{}\n```\n", lines.join("\n"));
-        crate::document::insert(&document, "error-bars", &table);
-    }
-    assert!(dishonest.is_empty(), "{}", dishonest.join("\n"));
 }

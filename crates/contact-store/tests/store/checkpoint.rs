@@ -11,7 +11,7 @@ use std::thread;
 use std::time::Duration;
 
 use crate::files::files;
-use contact_core::estimate::{choose_increments, error_bars};
+use contact_core::estimate::{ErrorMethod, choose_increments, error_bars};
 use contact_core::march::{Increment, March, Observer, solve};
 use contact_core::{Error, Scene};
 use contact_store::{Resumed, Store, StoreWriter, resume};
@@ -348,6 +348,6 @@ fn a_raised_flag_ends_what_comes_before_and_after_the_increments() {
         let chosen = choose_increments(&open, &stop);
         assert_eq!(chosen, Err(Error::Interrupted { increment: 0 }));
     });
-    let bars = error_bars(&scene(), &[], &[], &stop);
+    let bars = error_bars(&scene(), &[], &[], ErrorMethod::FinerGrid, &stop);
     assert!(matches!(bars, Err(Error::Interrupted { .. })), "{bars:?}");
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use contact_core::Scene;
-use contact_core::estimate::{BranchEnds, ErrorBars, choose_increments, error_bars};
+use contact_core::estimate::{BranchEnds, ErrorBars, ErrorMethod, choose_increments, error_bars};
 use contact_core::march::{BranchSummary, solve, summarise};
 use contact_core::scene::{Elastic, Friction, FrictionHistory, History, LoadPath};
 
@@ -17,7 +17,13 @@ fn with_bars(scene: &Scene) -> (Vec<BranchSummary>, Vec<ErrorBars>) {
     let mut nobody = ();
     let mut ends = BranchEnds::new(&mut nobody);
     let increments = solve(&scene, &mut ends).expect("a solution");
-    let bars = error_bars(&scene, &increments, &ends.tractions, &Arc::default());
+    let bars = error_bars(
+        &scene,
+        &increments,
+        &ends.tractions,
+        ErrorMethod::FinerGrid,
+        &Arc::default(),
+    );
     (summarise(&increments), bars.expect("bars"))
 }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use contact_core::Scene;
-use contact_core::estimate::{BranchEnds, choose_increments, error_bars};
+use contact_core::estimate::{BranchEnds, ErrorMethod, choose_increments, error_bars};
 use contact_core::march::{Status, solve, summarise};
 use contact_core::scene::{Elastic, LoadPath};
 
@@ -26,8 +26,14 @@ fn bars_cover_shift_and_energy_near_full_sliding() {
         let mut ends = BranchEnds::new(&mut nobody);
         let increments = solve(&chosen, &mut ends).expect("a solution");
         let last = increments[increments.len() - 1];
-        let bars =
-            error_bars(&chosen, &increments, &ends.tractions, &Arc::default()).expect("bars");
+        let bars = error_bars(
+            &chosen,
+            &increments,
+            &ends.tractions,
+            ErrorMethod::FinerGrid,
+            &Arc::default(),
+        )
+        .expect("bars");
         let ours = summarise(&increments)[1];
         let right = summarise(&run(&sheared(part, 32, Some(400))))[1];
         println!(
