@@ -154,7 +154,10 @@ def test_scenes_without_increments_of_interest_have_their_page(tmp_path: Path) -
 def cracked(result: fret.Result, tmp_path_factory: Any) -> Path:
     path: Path = tmp_path_factory.mktemp("cracked") / "run.html"
     crack = result.crack(lengths=np.geomspace(5e-6, 4e-4, 12))
-    result.report(path, crack=crack, threshold=fret.fracture.Threshold(3e6, 300e6))
+    with pytest.MonkeyPatch.context() as patch:
+        # The other page has the six panels.
+        patch.setattr("pyfret.plot.overview", lambda *_: plt.figure())
+        result.report(path, crack=crack, threshold=fret.fracture.Threshold(3e6, 300e6))
     return path
 
 
@@ -349,9 +352,9 @@ def test_a_film_of_a_cycle(result: fret.Result, tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="must end in"):
         fret.plot.animate(result, tmp_path / "cycle.avi")
     pytest.importorskip("imageio_ffmpeg")
-    fret.plot.animate(result, tmp_path / "cycle.mp4", increments=[3, 7, 11], dpi=40, fps=4)
+    fret.plot.animate(result, tmp_path / "cycle.mp4", increments=[3, 11], dpi=40, fps=4)
     film = frames_of(tmp_path / "cycle.mp4", 296, 112)
-    assert len(film) == 3
+    assert len(film) == 2
     # Outside the maps, the dot and the time, all frames are alike: axes and scales are fixed.
     corner = film[0].shape[0] - 12
     for frame in film[1:]:
