@@ -70,7 +70,7 @@ def test_most_of_what_is_drawn_is_a_scene() -> None:
 
 def test_scenes_of_everything_are_solved_or_rightly_refused() -> None:
     """A slice of the campaign through scene files: `python tests/campaign/run.py 0 5000`."""
-    lines, right = summarise(list(campaign(0, 80)))
+    lines, right = summarise(list(campaign(0, 40)))
     assert right, "\n".join(lines)
 
 

@@ -211,7 +211,13 @@ def test_the_largest_stress_keeps_off_the_frame() -> None:
 
 
 @pytest.mark.usefixtures("without_layout")
-def test_six_panels_in_one_figure(result: fret.Result) -> None:
+@pytest.mark.parametrize(
+    "name",
+    ["coated ball", "line", "torsion", "approach given", "frictionless", "never slips", "rolling"],
+)
+def test_six_panels_in_one_figure(name: str) -> None:
+    """`test_every_figure_is_drawn` has them of all scenes."""
+    result = fret.solve(SCENES[name], progress=False)
     figure = result.plot()
     figure.canvas.draw()
     panels = [ax for ax in figure.axes if ax.get_subplotspec() is not None]

@@ -99,5 +99,5 @@ def test_a_value_of_a_wrong_class_is_refused_with_the_name_of_its_argument() -> 
 @pytest.mark.timeout(36_000)
 def test_random_hostile_calls_of_all_public_callables() -> None:
     """Under 8 GB of address space; as many as ``FRET_HOSTILE`` (``make fuzz``: 20 000)."""
-    wrong = wrong_of(os.environ.get("FRET_HOSTILE", "400"))
+    wrong = wrong_of(os.environ.get("FRET_HOSTILE", "200"))
     assert not wrong, "\n".join(wrong)
