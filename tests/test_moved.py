@@ -13,7 +13,13 @@ import moved
 
 
 @pytest.mark.solves
-@pytest.mark.parametrize(("seed", "way"), [(0, "beside the middle"), (1, "bodies exchanged")])
+@pytest.mark.parametrize(
+    ("seed", "way"),
+    [
+        pytest.param(0, "beside the middle", marks=pytest.mark.slow),
+        (1, "bodies exchanged"),
+    ],
+)
 def test_every_number_of_a_moved_contact_stays(seed: int, way: str) -> None:
     rows = list(moved.compared(moved.draw(seed), [way], criteria=["crossland", "findley"]))
     assert len(rows) > 40
