@@ -61,7 +61,7 @@ FIGURES = {
 
 
 @pytest.mark.usefixtures("without_layout")
-@pytest.mark.parametrize(("name", "user"), zip(FIGURES, cycle(STYLES), strict=False))
+@pytest.mark.parametrize(("name", "user"), list(zip(FIGURES, cycle(STYLES), strict=False)))
 def test_a_saved_figure_keeps_the_theme(name: str, user: str) -> None:
     """`test_every_figure.py` has all figures under each of the styles."""
     with plt.style.context(user):
