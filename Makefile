@@ -47,7 +47,7 @@ quick: setup ## a minute: format, tests of units, the tests of Python that take 
 	cargo test --workspace --locked --release --lib --quiet
 	$(PY) -m pytest --quiet --numprocesses 2 -m "not slow and not solves"
 
-test: setup ## before a change is handed in: all but what is slow; those of Python take ten minutes of two cores
+test: setup ## before a change is handed in: all but what is slow; those of Python take eleven minutes of two cores
 	cargo test --workspace --locked --release
 	$(PY) -m pytest --numprocesses 2 --dist loadfile -m "not slow"
 
