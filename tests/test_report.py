@@ -21,6 +21,7 @@ from pyfret import verification
 from pyfret._cli import commands
 from pyfret._core import with_error
 from pyfret.report import content
+from pyfret.report import page as page_module
 from pyfret.report.crack import CrackSection
 
 pytestmark = pytest.mark.solves
@@ -71,6 +72,15 @@ def test_wear_of_other_bodies_is_refused(worn: fret.wear.WearResult, tmp_path: P
     with pytest.raises(ValueError, match="wear: is of other bodies than the run"):
         alternative.report(tmp_path / "page.html", wear=worn)
     assert not (tmp_path / "page.html").exists()
+
+
+def test_a_folder_that_does_not_exist_is_refused_before_drawing(
+    result: fret.Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(page_module, "stills", lambda *_: pytest.fail("the page was drawn"))
+    with pytest.raises(FileNotFoundError):
+        result.report(tmp_path / "missing" / "page.html")
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_crack_in_other_bodies_is_refused(result: fret.Result, tmp_path: Path) -> None:

@@ -79,35 +79,41 @@ def write_page(
     for one_life in lives:
         check_layers(one_life, result)
     cracked = None if crack is None else CrackSection(crack, threshold)
-    page = Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(
-        title=html(str(result.dataset.attrs["title"]) or "Fretting contact"),
-        version=html(str(result.dataset.attrs.get("version", __version__))),
-        status=html(result.status),
-        doubts="".join(f'<p class="doubt">Doubted: {html(doubt)}.</p>' for doubt in result.doubts),
-        scene=scene_html(result.scene),
-        ends=ends_table(result),
-        bars=bars(result),
-        cycles="".join(cycles_table(result, direction) for direction in directions(result)),
-        plan=plan(result),
-        sources=cited(result),
-        surfaces="" if wear is None else SURFACES.format(of=html(wear.loops_note)),
-        worn="" if wear is None else f'<pre tabindex="0">{html(in_letters(wear.summary()))}</pre>',
-        more="".join(
-            picture(caption, figure)
-            for caption, figure in {**yielded(result), **(figures or {})}.items()
-        ),
-        toml=html(result.scene.to_toml()),
-        css=theme.css_variables() + (HERE / "page.css").read_text(encoding="utf-8"),
-        js=(HERE / "page.js").read_text(encoding="utf-8"),
-        numbers=packed(
-            json.dumps({**numbers(result, wear, cracked), "theme": looks()}, allow_nan=False)
-        ),
-        life="".join(map(life_section, lives)),
-        no_life="" if lives else "hidden",
-        **stills(result, wear, crack, threshold),
-        plotly=packed(drawing()),
-    )
     with replacement(target) as unfinished:
+        # A folder that takes no file is refused before anything is drawn.
+        unfinished.touch()
+        page = Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(
+            title=html(str(result.dataset.attrs["title"]) or "Fretting contact"),
+            version=html(str(result.dataset.attrs.get("version", __version__))),
+            status=html(result.status),
+            doubts="".join(
+                f'<p class="doubt">Doubted: {html(doubt)}.</p>' for doubt in result.doubts
+            ),
+            scene=scene_html(result.scene),
+            ends=ends_table(result),
+            bars=bars(result),
+            cycles="".join(cycles_table(result, direction) for direction in directions(result)),
+            plan=plan(result),
+            sources=cited(result),
+            surfaces="" if wear is None else SURFACES.format(of=html(wear.loops_note)),
+            worn=""
+            if wear is None
+            else f'<pre tabindex="0">{html(in_letters(wear.summary()))}</pre>',
+            more="".join(
+                picture(caption, figure)
+                for caption, figure in {**yielded(result), **(figures or {})}.items()
+            ),
+            toml=html(result.scene.to_toml()),
+            css=theme.css_variables() + (HERE / "page.css").read_text(encoding="utf-8"),
+            js=(HERE / "page.js").read_text(encoding="utf-8"),
+            numbers=packed(
+                json.dumps({**numbers(result, wear, cracked), "theme": looks()}, allow_nan=False)
+            ),
+            life="".join(map(life_section, lives)),
+            no_life="" if lives else "hidden",
+            **stills(result, wear, crack, threshold),
+            plotly=packed(drawing()),
+        )
         unfinished.write_text(page, encoding="utf-8")
 
 
