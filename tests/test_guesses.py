@@ -13,7 +13,7 @@ import pytest
 from xarray import Dataset
 
 import pyfret as fret
-import pyfret.plot  # noqa: F401 - hints name figures once their module is loaded
+import pyfret.plot
 from conftest import HERE, W, sphere_on_flat
 
 pytestmark = pytest.mark.solves

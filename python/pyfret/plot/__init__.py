@@ -10,7 +10,7 @@ its four runs in one call.
 from typing import TYPE_CHECKING, Any
 
 from pyfret._util.extras import application
-from pyfret._util.modules import name_hint
+from pyfret._util.modules import enter_public_module, name_hint
 from pyfret._util.names import listing
 from pyfret.plot.animation import animate
 from pyfret.plot.comparison import comparison
@@ -113,6 +113,7 @@ __all__ = [
     "wear_profiles",
 ]
 __dir__ = listing(__all__)
+enter_public_module(__name__)
 
 if TYPE_CHECKING:
     from pyfret.plot import paper as paper
