@@ -283,9 +283,11 @@ fn judge(found: &[&Ratios], least: usize, lines: &mut Vec<String>, dishonest: &m
     let mut all = Vec::new();
     let mut look = |name: &str, ratios: &[f64]| {
         let ([below, above], line) = summary(name, ratios);
-        // Of a few scenes one number more may be odd.
-        let odd = usize::from(ratios.len() < 20);
-        if 100 * (below + odd) < 95 * ratios.len() || 100 * (above + odd) < least * ratios.len() {
+        // Of a few numbers one more may be odd, and how many bars are too long says nothing.
+        let few = ratios.len() < 20;
+        let is_too_short = 100 * (below + usize::from(few)) < 95 * ratios.len();
+        let is_too_long = !few && 100 * above < least * ratios.len();
+        if is_too_short || is_too_long {
             dishonest.push(line.clone());
         }
         lines.push(line);
@@ -302,5 +304,5 @@ fn judge(found: &[&Ratios], least: usize, lines: &mut Vec<String>, dishonest: &m
             all.extend(ratios);
         }
     }
-    lines.push(summary("all numbers", &all).1);
+    look("all numbers", &all);
 }
