@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import pyfret as fret
+from pyfret.fit.search import with_found
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -41,6 +42,21 @@ def loop(scene: fret.Scene, reach: float, noise: float, seed: int) -> tuple[np.n
     rng = np.random.default_rng(seed)
     shift, T = d.delta_x.values[-64:], d.T_x.values[-64:]
     return shift, T + rng.normal(0, noise * np.ptp(T), T.size)
+
+
+def test_the_scene_of_a_fit_has_all_values_that_were_found() -> None:
+    path = fret.LoadPath.start().normal(W).cycles(1, delta_x=6e-6)
+    scene, searched = ball().replace(path=path), ball()
+    found = {"path.*.W": 25.0, "mu": 0.7, "rig.stiffness": 8e6, "wear.body2.alpha": 1e-15}
+    known = {key: SimpleNamespace(value=value) for key, value in found.items()}
+    result = with_found(scene, SimpleNamespace(known=known, scene=searched))  # type: ignore[arg-type]
+    assert [branch.W for branch in result.path.branches] == [25.0] * len(path.branches)
+    assert [branch.delta_x for branch in result.path.branches] == [
+        branch.delta_x for branch in path.branches
+    ]
+    assert (result.friction.mu, result.path.rig_stiffness) == (0.7, 8e6)
+    known = {"path.*.W": SimpleNamespace(value=-1.0)}
+    assert with_found(scene, SimpleNamespace(known=known, scene=searched)) is searched  # type: ignore[arg-type]
 
 
 def test_mu_and_the_rig_are_found_from_a_german_file(tmp_path: Path) -> None:

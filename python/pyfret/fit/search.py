@@ -119,7 +119,7 @@ def fit(
     if not isinstance(scene, Scene):
         scene = Scene.from_file(scene)
     sets: list[Data] = list(data) if isinstance(data, Sequence) else [data]
-    path = scene.path
+    whole = scene
     if all(isinstance(item, Loops | Indentation) for item in sets):
         scene = under_normal_force(scene)
     if unknown is None and sets and all(isinstance(item, Loops) for item in sets):
@@ -142,7 +142,7 @@ def fit(
                     solves = fitted.solves + without.solves
                     fitted = replace(without, solves=solves, left_out=left_out)
                     search, best = simpler, best_without
-        fitted = replace(fitted, scene=with_path(fitted.scene, path))
+        fitted = replace(fitted, scene=with_found(whole, fitted))
         return search.with_posterior(fitted, best, posterior, seed) if posterior else fitted
 
 
@@ -156,12 +156,13 @@ def under_normal_force(scene: Scene) -> Scene:
     return scene.replace(path=pressed.rig(path.rig_stiffness))
 
 
-def with_path(scene: Scene, path: LoadPath) -> Scene:
-    """Return the scene with a path through its own rig, or as it is where the path is refused."""
+def with_found(scene: Scene, fitted: FitResult) -> Scene:
+    """Return the user's scene with the values found; the searched one if its path refuses them."""
+    values = split({key: unknown.value for key, unknown in fitted.known.items()})[0]
     try:
-        return scene.replace(path=path.rig(scene.path.rig_stiffness))
+        return with_values(scene, values) if values else scene
     except ValueError:
-        return scene
+        return fitted.scene
 
 
 def moves(branch: Branch) -> bool:
