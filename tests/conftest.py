@@ -56,7 +56,7 @@ def without_overview(monkeypatch: pytest.MonkeyPatch) -> None:
 ROOT = Path(__file__).parents[1]
 
 #: Computes the points of a study in this process. A process of its own imports the package anew.
-HERE = ThreadPoolExecutor(1)
+SAME_PROCESS = ThreadPoolExecutor(1)
 
 R, W, MU = 0.018, 1e3, 0.3
 # Relative tolerance of the solutions, what the bounds of the tests are multiples of.

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import pyfret as fret
-from conftest import HERE
+from conftest import SAME_PROCESS
 from pyfret._core import measure
 from pyfret.study import stresses
 from pyfret.subsurface.contact import sample_borders, sample_sections
@@ -81,7 +81,7 @@ def test_sections_together_are_the_sections_of_each(run: fret.Result, body_numbe
 def test_answers_are_those_of_a_study(run: fret.Result) -> None:
     measures = ["s_1", "stick_ratio", "p_max"]
     study = fret.study.run(
-        run.scene, {"mu": [run.scene.friction.mu]}, measure=measures, executor=HERE
+        run.scene, {"mu": [run.scene.friction.mu]}, measure=measures, executor=SAME_PROCESS
     )
     numbers = fret.study.answers(run, measures)
     for name in measures:

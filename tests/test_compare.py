@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import pyfret as fret
-from conftest import HERE, ROOT
+from conftest import ROOT, SAME_PROCESS
 from pyfret import fatigue, wear
 from pyfret.study import Candidate
 
@@ -80,7 +80,7 @@ def compared(tmp_path_factory: pytest.TempPathFactory) -> tuple[fret.study.Compa
     position = tmp_path_factory.mktemp("compare") / "study.zarr"
     scene, path = contact()
     comparison = fret.compare(
-        bodies(), scene, path, cycles=1e3, executor=HERE, out=position, progress=False
+        bodies(), scene, path, cycles=1e3, executor=SAME_PROCESS, out=position, progress=False
     )
     return comparison, position
 
@@ -135,7 +135,7 @@ def test_a_margin_says_what_the_stress_is_and_what_is_doubted() -> None:
         path,
         questions=["life"],
         criterion="crossland",
-        executor=HERE,
+        executor=SAME_PROCESS,
         progress=False,
     )
     assert float(at_a_point.dataset.safety_of_substrate_L[0]) == 0.0
@@ -147,7 +147,7 @@ def test_a_margin_says_what_the_stress_is_and_what_is_doubted() -> None:
             path,
             questions=["life"],
             criterion=criterion,
-            executor=HERE,
+            executor=SAME_PROCESS,
             progress=False,
         )
         table = comparison.summary()
@@ -191,7 +191,7 @@ def test_alike_bodies_make_no_difference() -> None:
         scene,
         path,
         questions=["energy"],
-        executor=HERE,
+        executor=SAME_PROCESS,
         progress=False,
     )
     verdict = comparison.preference("energy")
@@ -204,7 +204,7 @@ def test_alike_bodies_make_no_difference() -> None:
         path,
         questions=["energy"],
         progress=False,
-        executor=HERE,
+        executor=SAME_PROCESS,
     )
     assert "no difference" in same.summary()
 
@@ -218,7 +218,12 @@ def test_it_goes_on_after_an_interrupt(tmp_path: Path) -> None:
         if done == 2:
             raise KeyboardInterrupt
 
-    options = {"questions": ["energy"], "executor": HERE, "out": position, "progress": False}
+    options = {
+        "questions": ["energy"],
+        "executor": SAME_PROCESS,
+        "out": position,
+        "progress": False,
+    }
     with pytest.raises(KeyboardInterrupt):
         fret.compare(some, scene, path, on_point=stop, **options)  # type: ignore[arg-type]
     progress: list[int] = []
@@ -300,7 +305,9 @@ def test_the_command_reads_a_file(tmp_path: Path) -> None:
     low, best, high = answer["numbers"]["energy"]["values"]["film"]
     assert low < best < high
     options = {"bare": bodies()["bare"], "film": bodies()["film"]}
-    same = fret.compare(options, scene, path, questions=["energy"], executor=HERE, progress=False)
+    same = fret.compare(
+        options, scene, path, questions=["energy"], executor=SAME_PROCESS, progress=False
+    )
     assert best == pytest.approx(float(same.dataset.energy.sel(candidate="film")))
     assert (tmp_path / "all.png").exists()
     again = command("coatings.toml", folder=tmp_path)

@@ -16,7 +16,7 @@ import pytest
 import xarray as xr
 
 import pyfret as fret
-from conftest import HERE
+from conftest import SAME_PROCESS
 from pyfret._core import StoreError
 from pyfret._util import files
 
@@ -196,7 +196,12 @@ def test_the_same_numbers_give_the_same_bytes(
     studies = [tmp_path / "study1.zarr", tmp_path / "study2.zarr"]
     for folder in studies:
         fret.study.run(
-            scene, {"mu": [0.2, 0.4]}, measure=["p_max"], executor=HERE, out=folder, progress=False
+            scene,
+            {"mu": [0.2, 0.4]},
+            measure=["p_max"],
+            executor=SAME_PROCESS,
+            out=folder,
+            progress=False,
         )
     first, second = map(contents, studies)
     assert first.keys() == second.keys()

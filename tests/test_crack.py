@@ -13,7 +13,7 @@ import xarray as xr
 from matplotlib.text import Text
 
 import pyfret as fret
-from conftest import HERE
+from conftest import SAME_PROCESS
 from pyfret import fracture
 from pyfret._cli import commands
 from pyfret._util.scene_warnings import doubts_of
@@ -194,7 +194,7 @@ def test_the_arrest_map_holds_what_each_point_gives(rig: fret.Result) -> None:
     scene = rig.scene.replace(grid=fret.Grid.strip(extent=1e-3, n=64))
     arrest = fret.study.Arrest(fracture.Threshold(3e6, 300e6))
     table = fret.study.arrest_map(
-        scene, W=2e5, T=[3e4, 9e4, 2e5], sigma_B=[0.0, 2e8], arrest=arrest, executor=HERE
+        scene, W=2e5, T=[3e4, 9e4, 2e5], sigma_B=[0.0, 2e8], arrest=arrest, executor=SAME_PROCESS
     )
     assert table.arrest_margin.dims == ("T", "sigma_B")
     assert np.isnan(table.arrest_margin[2]).all()
@@ -222,7 +222,7 @@ def test_the_running_map_has_the_lengths_at_which_cracks_stop(rig: fret.Result) 
         T=[6e4, 8e4, 1e5],
         increments=(2, 6),
         arrest=arrest,
-        executor=HERE,
+        executor=SAME_PROCESS,
     )
     length = table.arrest_length.transpose("W", "T").values
     # More shear takes them deeper; at 1e5 N the smaller force slides.
@@ -238,7 +238,7 @@ def test_the_running_map_has_the_lengths_at_which_cracks_stop(rig: fret.Result) 
 def test_bulk_stress_moves_the_line_of_arrest_in_the_running_map(rig: fret.Result) -> None:
     scene = rig.scene.replace(grid=fret.Grid.strip(extent=1e-3, n=64))
     arrest = fret.study.Arrest(fracture.Threshold(3e6, 300e6), lengths=[5e-6, 2e-5, 1e-4, 4e-4])
-    loads = {"W": [1.5e5, 2e5], "T": [3e4, 8e4], "increments": (2, 8), "executor": HERE}
+    loads = {"W": [1.5e5, 2e5], "T": [3e4, 8e4], "increments": (2, 8), "executor": SAME_PROCESS}
     table = fret.study.running_conditions(scene, **loads, sigma_B=[0.0, 2e8], arrest=arrest)
     assert set(table.arrest_margin.dims) == {"W", "T", "sigma_B"}
     assert table.sigma_B.attrs["units"] == "Pa"
@@ -250,7 +250,13 @@ def test_bulk_stress_moves_the_line_of_arrest_in_the_running_map(rig: fret.Resul
     )
     # A point equals the map of shear and bulk stress.
     chart = fret.study.arrest_map(
-        scene, W=2e5, T=[8e4], sigma_B=[2e8], arrest=arrest, increments=(2, 8), executor=HERE
+        scene,
+        W=2e5,
+        T=[8e4],
+        sigma_B=[2e8],
+        arrest=arrest,
+        increments=(2, 8),
+        executor=SAME_PROCESS,
     )
     margin = float(item.arrest_margin.sel(W=2e5, T=8e4))
     assert margin == pytest.approx(float(chart.arrest_margin[0, 0]), rel=1e-9)
@@ -258,7 +264,9 @@ def test_bulk_stress_moves_the_line_of_arrest_in_the_running_map(rig: fret.Resul
     labels = [text.get_text() for text in ax.get_legend().get_texts()]
     assert any(label.startswith("crack stops at [µm], ±") for label in labels), labels
     with pytest.raises(ValueError, match="must be 0 with shifts"):
-        fret.study.running_conditions(scene, W=[1e5], delta=[1e-6], sigma_B=1e8, executor=HERE)
+        fret.study.running_conditions(
+            scene, W=[1e5], delta=[1e-6], sigma_B=1e8, executor=SAME_PROCESS
+        )
 
 
 @pytest.mark.solves

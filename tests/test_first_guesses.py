@@ -14,7 +14,7 @@ import pytest
 import xarray as xr
 
 import pyfret as fret
-from conftest import HERE, W, sphere_on_flat
+from conftest import SAME_PROCESS, W, sphere_on_flat
 from pyfret._core import measure
 from pyfret._util.modules import SYNONYMS
 from pyfret._util.numbers import layer_index
@@ -352,7 +352,7 @@ def test_a_growth_of_cracks_is_answered_with_the_life() -> None:
 
 @pytest.mark.solves
 def test_a_wrong_name_of_a_study_or_of_wear_is_answered(coated: fret.Result) -> None:
-    study = fret.study.run(coated.scene, {"mu": [0.3, 0.4]}, measure="p_max", executor=HERE)
+    study = fret.study.run(coated.scene, {"mu": [0.3, 0.4]}, measure="p_max", executor=SAME_PROCESS)
     with pytest.raises(AttributeError, match=r"to_dataframe\(\).sort_values\('p_max \[Pa\]'\)"):
         study.best("p_max")
     with pytest.raises(AttributeError, match=r"study.failed\(\)"):
@@ -390,7 +390,7 @@ def test_a_summary_of_a_study_counts_what_is_no_number(coated: fret.Result) -> N
             lambda result: 3.0 if result.mu > 0.45 else float("inf"),
             lambda _: float("inf"),
         ],
-        executor=HERE,
+        executor=SAME_PROCESS,
         progress=False,
     )
     assert study.measures == ["measure_1", "measure_2", "measure_3"]

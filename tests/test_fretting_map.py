@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 
 import pyfret as fret
-from conftest import HERE, MU, R, sphere_on_flat
+from conftest import MU, SAME_PROCESS, R, sphere_on_flat
 from pyfret import fatigue
 
 pytestmark = pytest.mark.solves
@@ -38,7 +38,7 @@ def test_the_map_holds_what_each_point_gives() -> None:
     scene = sphere_on_flat(n=20)
     loads = {"W": [600.0, 1000.0], "T": [60.0, 150.0, 200.0]}
     table = fret.study.running_conditions(
-        scene, **loads, increments=(3, 6), cracking=cracking, executor=HERE
+        scene, **loads, increments=(3, 6), cracking=cracking, executor=SAME_PROCESS
     )
     assert table.status.values.tolist() == [[2, 2, 3], [2, 2, 2]]
     assert np.isnan(table.safety_factor[0, 2])
@@ -69,14 +69,16 @@ def test_gross_slip_begins_at_the_shift_of_mindlin() -> None:
         limits.append(fret.reference.CattaneoMindlin(hertz, bodies=bodies, mu=MU).shift_limit)
     shifts = max(limits) * np.array([0.2, 1.5])
     table = fret.study.running_conditions(
-        scene, W=W, delta=shifts, increments=(3, 6), executor=HERE
+        scene, W=W, delta=shifts, increments=(3, 6), executor=SAME_PROCESS
     )
     np.testing.assert_allclose(table.slides_from, limits, rtol=0.02)
     ax = fret.plot.running_map(table)
     drawn = ax.lines[0]
     middle = np.interp(np.sqrt(W.prod()), drawn.get_xdata(), drawn.get_ydata())
     assert middle == pytest.approx(1e6 * np.sqrt(np.prod(limits)), rel=0.02)
-    forces = fret.study.running_conditions(scene, W=W, T=[30.0], increments=(3, 4), executor=HERE)
+    forces = fret.study.running_conditions(
+        scene, W=W, T=[30.0], increments=(3, 4), executor=SAME_PROCESS
+    )
     np.testing.assert_allclose(forces.slides_from, MU * W)
     plt.close("all")
 

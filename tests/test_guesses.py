@@ -14,7 +14,7 @@ from xarray import Dataset
 
 import pyfret as fret
 import pyfret.plot
-from conftest import HERE, W, sphere_on_flat
+from conftest import SAME_PROCESS, W, sphere_on_flat
 
 pytestmark = pytest.mark.solves
 
@@ -365,7 +365,9 @@ def test_a_word_for_a_parameter_of_a_study_is_answered(
     result: fret.Result, word: str, name: str
 ) -> None:
     with pytest.raises(ValueError, match=rf"{word}: the nearest is {name}$"):
-        fret.study.run(result.scene, {word: [1.0]}, measure="p_max", executor=HERE, progress=False)
+        fret.study.run(
+            result.scene, {word: [1.0]}, measure="p_max", executor=SAME_PROCESS, progress=False
+        )
 
 
 @pytest.mark.parametrize(

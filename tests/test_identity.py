@@ -12,7 +12,7 @@ import pytest
 import xarray as xr
 
 import pyfret as fret
-from conftest import HERE
+from conftest import SAME_PROCESS
 from pyfret.study.identity import code_checksum
 
 pytestmark = pytest.mark.solves
@@ -31,7 +31,7 @@ SCALE = 1.0
 
 def solved(parameters: dict[str, Any], measure: Any, **options: Any) -> fret.study.Study:
     """A study in this process."""
-    text = {"executor": HERE, "progress": False} | options
+    text = {"executor": SAME_PROCESS, "progress": False} | options
     return fret.study.run(SCENE, parameters, measure=measure, **text)
 
 
@@ -139,7 +139,12 @@ def test_a_store_of_other_code_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "f.zarr"
     for W, refused in ((10.0, False), (10.0, False), (20.0, True)):
         call = functools.partial(
-            fret.study.run, scenes(W), values, measure="p_max", executor=HERE, progress=False
+            fret.study.run,
+            scenes(W),
+            values,
+            measure="p_max",
+            executor=SAME_PROCESS,
+            progress=False,
         )
         if refused:
             with pytest.raises(fret.errors.StoreError, match="differ in scene"):

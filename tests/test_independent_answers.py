@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import pyfret as fret
-from conftest import HERE
+from conftest import SAME_PROCESS
 from pyfret.study import MEASURES, Candidate
 from pyfret.study.measures import evaluate_measures
 
@@ -57,7 +57,7 @@ def test_a_measure_that_raises_leaves_the_others() -> None:
             scene(cycles=0),
             {"friction.mu": [0.5]},
             measure=["p_max", broken],
-            executor=HERE,
+            executor=SAME_PROCESS,
             progress=False,
         )
     assert float(answers.dataset.p_max[0]) > 1e8
@@ -92,7 +92,7 @@ def test_a_question_of_a_comparison_leaves_the_others() -> None:
         candidates,
         scene(),
         questions=["tension", "yield", "energy"],
-        executor=HERE,
+        executor=SAME_PROCESS,
         progress=False,
     )
     d = answers.dataset
@@ -118,7 +118,7 @@ def test_wear_that_leaves_the_grid_gives_what_it_reached() -> None:
         scene().replace(path=path),
         questions=["wear", "energy"],
         cycles=1e6,
-        executor=HERE,
+        executor=SAME_PROCESS,
         progress=False,
     )
     row = next(line for line in answers.summary().splitlines() if "worn through" in line)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import pyfret as fret
-from conftest import HERE
+from conftest import SAME_PROCESS
 
 pytestmark = pytest.mark.solves
 
@@ -238,7 +238,7 @@ def test_a_study_is_a_table_of_points() -> None:
         return result.at(-1).along_x().p.rename("p")
 
     study = fret.study.run(
-        scene, {"mu": [0.2, 0.3]}, measure=["p_max", profile], executor=HERE, progress=False
+        scene, {"mu": [0.2, 0.3]}, measure=["p_max", profile], executor=SAME_PROCESS, progress=False
     )
     with pytest.warns(UserWarning, match=r"left out.* profile \(over x\)"):
         table = study.to_dataframe()

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import pyfret as fret
-from conftest import HERE, ROOT
+from conftest import ROOT, SAME_PROCESS
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 TABLE = README.partition("## From a question to a call")[2].partition("\n## ")[0]
@@ -47,7 +47,7 @@ def names_for(question: str, folder: Path) -> dict[str, Any]:
         if question.startswith("its picture"):
             measure = ["loop_energy", "interface_shear"]
             names["table"] = fret.study(
-                scene, points, measure=measure, executor=HERE, progress=False
+                scene, points, measure=measure, executor=SAME_PROCESS, progress=False
             )
     elif question.startswith(("a measured loop", "a scar", "depth after", "which of two")):
         slides = (

@@ -16,7 +16,7 @@ import pytest
 import xarray as xr
 
 import pyfret as fret
-from conftest import HERE, ROOT, W, sphere_on_flat
+from conftest import ROOT, SAME_PROCESS, W, sphere_on_flat
 from pyfret import verification
 from pyfret._cli import commands
 from pyfret._core import with_error
@@ -240,7 +240,9 @@ def test_a_comparison_fits_on_every_screen(tmp_path: Path) -> None:
         "bare": scene.body2,
         "coated with a hard film": fret.Body(fret.Elastic(E=210e9, nu=0.3), coatings=film),
     }
-    fret.compare(bodies, scene, executor=HERE, progress=False).report(tmp_path / "compare.html")
+    fret.compare(bodies, scene, executor=SAME_PROCESS, progress=False).report(
+        tmp_path / "compare.html"
+    )
     with api.sync_playwright() as play:
         chromium = browser(play)
         for width in (380, 800, 1280, 1920):
@@ -309,7 +311,7 @@ def test_notebooks_show_tables(result: fret.Result) -> None:
     assert "coating 1" in scene._repr_html_()
     assert "T<sub>x</sub> = -200 N" in path._repr_html_()
     assert "partial slip" in result._repr_html_()
-    study = fret.study.run(scene, {"mu": [0.3]}, measure="p_max", executor=HERE)
+    study = fret.study.run(scene, {"mu": [0.3]}, measure="p_max", executor=SAME_PROCESS)
     assert "p_max" in study._repr_html_()
 
 

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 import pyfret as fret
-from conftest import HERE
+from conftest import SAME_PROCESS
 from pyfret._core import shown
 from pyfret._util.text import html, literal
 
@@ -43,7 +43,7 @@ def sent(tmp_path_factory: pytest.TempPathFactory) -> Path:
         SCENE,
         {"mu": [0.3]},
         measure="p_max",
-        executor=HERE,
+        executor=SAME_PROCESS,
         progress=False,
         out=folder / "study.zarr",
     )

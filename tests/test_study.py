@@ -6,7 +6,6 @@ import os
 import pickle
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from decimal import Decimal
 from fractions import Fraction
 from functools import partial
@@ -19,7 +18,7 @@ import pytest
 import xarray as xr
 
 import pyfret as fret
-from conftest import ROOT, R, W, sphere_on_flat
+from conftest import ROOT, SAME_PROCESS, R, W, sphere_on_flat
 from dying import DEADLY, dies, dies_once
 from pyfret import citation
 from pyfret.plot.parameters import parameter_label
@@ -34,10 +33,11 @@ PATH = fret.LoadPath.start().normal(W, increments=2).cycles(1, T_x=150.0, increm
 SCENE = sphere_on_flat(ratio=2.0, n=16).replace(path=PATH, title="study")
 PARAMETERS = {"body2.coatings.0.E": [1e11, 4e11], "mu": [0.2, 0.3, 0.4]}
 MEASURES = ["loop_energy", "stick_ratio", "p_max"]
-HERE = ThreadPoolExecutor(1)
 
 
-def run(*, measure: Any = MEASURES, executor: Any = HERE, **options: Any) -> fret.study.Study:
+def run(
+    *, measure: Any = MEASURES, executor: Any = SAME_PROCESS, **options: Any
+) -> fret.study.Study:
     return fret.study.run(
         SCENE, PARAMETERS, measure=measure, executor=executor, progress=False, **options
     )
@@ -104,7 +104,7 @@ def test_a_point_is_the_solution_of_its_scene(whole: fret.study.Study) -> None:
 def test_values_in_step_and_samples(whole: fret.study.Study) -> None:
     sample = {"body2.coatings.0.E": np.array([1e11, 4e11]), "mu": np.array([0.3, 0.2])}
     study = fret.study.run(
-        SCENE, sample, combine="zip", measure=MEASURES, executor=HERE, progress=False
+        SCENE, sample, combine="zip", measure=MEASURES, executor=SAME_PROCESS, progress=False
     )
     assert study.dataset.sizes == {"point": 2}
     there = whole.dataset.p_max
@@ -120,12 +120,12 @@ def tractions(result: fret.Result) -> dict[str, Any]:
 
 def test_a_function_of_the_user_gives_numbers_and_fields() -> None:
     stiff = {"body2.coatings.0.E": [3e11, 4e11], "mu": [0.2, 0.3]}
-    study = fret.study.run(SCENE, stiff, measure=["p_max", tractions], executor=HERE)
+    study = fret.study.run(SCENE, stiff, measure=["p_max", tractions], executor=SAME_PROCESS)
     assert study.dataset.pressure.dims == ("body2.coatings.0.E", "mu", "x", "y")
     assert (study.dataset.pressure.max(("x", "y")) <= study.dataset.p_max).all()
     assert (study.dataset.cells > 100).all()
     soft = fret.study.run(
-        SCENE, {"body2.coatings.0.E": [3e11, 1e11]}, measure=tractions, executor=HERE
+        SCENE, {"body2.coatings.0.E": [3e11, 1e11]}, measure=tractions, executor=SAME_PROCESS
     )
     assert "{'x': 22, 'y': 22}" in soft.failed()[0][1]
     with pytest.raises(ValueError, match="field over x, y"):
@@ -136,7 +136,11 @@ def test_a_function_of_the_user_gives_numbers_and_fields() -> None:
 
 def test_failed_points_say_why_and_are_solved_again_if_asked(tmp_path: Path) -> None:
     where = {"mu": [0.1, 0.3]}  # 150 N are more than 0.1 of 1000 N
-    options: dict[str, Any] = {"measure": MEASURES, "executor": HERE, "out": tmp_path / "s.zarr"}
+    options: dict[str, Any] = {
+        "measure": MEASURES,
+        "executor": SAME_PROCESS,
+        "out": tmp_path / "s.zarr",
+    }
     study = fret.study.run(SCENE, where, **options)
     ((values, reason),) = study.failed()
     assert values == {"mu": 0.1}
@@ -174,7 +178,7 @@ def test_points_have_the_increments_of_the_middle_one_in_any_order(tmp_path: Pat
 
     def solved(**options: Any) -> fret.study.Study:
         return fret.study.run(
-            scene, parameters, measure=counted, executor=HERE, progress=False, **options
+            scene, parameters, measure=counted, executor=SAME_PROCESS, progress=False, **options
         )
 
     def stop(done: int, _: int) -> None:
@@ -204,11 +208,11 @@ def counted(result: fret.Result) -> dict[str, float]:
 
 def test_the_store_of_another_study_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "s.zarr"
-    fret.study.run(SCENE, {"mu": [0.3]}, measure="p_max", executor=HERE, out=path)
+    fret.study.run(SCENE, {"mu": [0.3]}, measure="p_max", executor=SAME_PROCESS, out=path)
     with pytest.raises(fret.errors.StoreError, match="differ in parameters"):
-        fret.study.run(SCENE, {"mu": [0.4]}, measure="p_max", executor=HERE, out=path)
+        fret.study.run(SCENE, {"mu": [0.4]}, measure="p_max", executor=SAME_PROCESS, out=path)
     with pytest.raises(fret.errors.StoreError, match="it measures p_max, not q_max"):
-        fret.study.run(SCENE, {"mu": [0.3]}, measure="q_max", executor=HERE, out=path)
+        fret.study.run(SCENE, {"mu": [0.3]}, measure="q_max", executor=SAME_PROCESS, out=path)
     fret.solve(SCENE, out=tmp_path / "run.zarr", progress=False)
     with pytest.raises(fret.errors.StoreError, match="not the store of a study"):
         open_study(tmp_path / "run.zarr")
@@ -217,11 +221,11 @@ def test_the_store_of_another_study_is_refused(tmp_path: Path) -> None:
 def test_a_grid_that_is_too_small_grows() -> None:
     small = SCENE.replace(grid=SCENE.grid.replace(dx=SCENE.grid.dx / 2.5, dy=SCENE.grid.dy / 2.5))
     softer = {"body2.coatings.0.E": [1e11]}
-    study = fret.study.run(small, softer, measure="p_max", executor=HERE)
+    study = fret.study.run(small, softer, measure="p_max", executor=SAME_PROCESS)
     assert study.count()["done"] == 1
     assert study.dataset.nx.item() > 16
     assert study.dataset.nx.item() == study.dataset.ny.item()
-    kept = fret.study.run(small, softer, measure="p_max", executor=HERE, grow=False)
+    kept = fret.study.run(small, softer, measure="p_max", executor=SAME_PROCESS, grow=False)
     assert kept.failed()[0][1].startswith("OffGridError")
 
 
@@ -296,7 +300,7 @@ def test_stresses_wear_and_a_scene_file_with_its_measures(tmp_path: Path) -> Non
         tmp_path / "scene.toml",
         thick,
         measure=["von_mises", "interface_shear", worn],
-        executor=HERE,
+        executor=SAME_PROCESS,
     )
     assert study.count()["done"] == 2, study.failed()
     d = study.dataset
@@ -328,7 +332,7 @@ def test_measures_have_their_range_or_are_called_estimates() -> None:
             scene,
             {"mu": [SCENE.mu, 1.2 * SCENE.mu]},
             measure=measure,
-            executor=HERE,
+            executor=SAME_PROCESS,
             progress=False,
         )
         lines = {line.split()[0]: line for line in study.summary().splitlines()[2:]}
@@ -388,7 +392,7 @@ def test_what_is_no_study_is_refused() -> None:
     with pytest.raises(TypeError, match="number of processes"):
         fret.study.run(SCENE, {"mu": [0.3]}, executor="many")
     with pytest.raises(ValueError, match="nearest valid key"):
-        fret.study.run(SCENE, {"body2.coatings.0.modulus": [1e-5]}, executor=HERE)
+        fret.study.run(SCENE, {"body2.coatings.0.modulus": [1e-5]}, executor=SAME_PROCESS)
 
 
 def test_a_study_can_be_pickled(whole: fret.study.Study) -> None:

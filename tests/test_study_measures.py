@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -12,12 +11,12 @@ import pytest
 import xarray as xr
 
 import pyfret as fret
+from conftest import SAME_PROCESS
 from pyfret.study import point, stresses
 from pyfret.study.loop import Costs
 from pyfret.study.measures import MEASURES, evaluate_measures
 from pyfret.subsurface.tensor import Stress
 
-HERE = ThreadPoolExecutor(1)
 STEEL, TITANIUM = fret.Elastic(E=210e9, nu=0.3), fret.Elastic(E=117e9, nu=0.31)
 
 
@@ -106,7 +105,7 @@ def test_increments_are_chosen_for_the_measures(increments: int | None) -> None:
         warnings.simplefilter("ignore")
         alone = fret.solve(scene, progress=False).loops()
         study = fret.study.run(
-            scene, {"mu": [0.6]}, measure="stiffness", executor=HERE, progress=False
+            scene, {"mu": [0.6]}, measure="stiffness", executor=SAME_PROCESS, progress=False
         ).dataset
     assert np.isnan(alone.stiffness.values).all()
     if increments is None:
@@ -149,7 +148,9 @@ def test_a_study_of_a_stress_of_interfaces_solves_and_searches_once_a_point(
         "body1.shape.R": [7e-3, 8e-3, 9e-3],
         "body2.coatings.0.thickness": [6e-6, 8e-6],
     }
-    study = fret.study.run(scene, values, measure="interface_shear", executor=HERE, progress=False)
+    study = fret.study.run(
+        scene, values, measure="interface_shear", executor=SAME_PROCESS, progress=False
+    )
     assert study.count()["done"] == 18
     sizes = fret.solve(scene, progress=False).dataset.sizes
     assert work["solve"] == [sizes["increment"]] * 18

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import pyfret as fret
-from conftest import HERE, MU, W, pair, paper_path, sphere_on_flat
+from conftest import MU, SAME_PROCESS, W, pair, paper_path, sphere_on_flat
 
 pytestmark = pytest.mark.solves
 
@@ -333,7 +333,11 @@ def test_loops_of_torsion_and_of_given_shifts() -> None:
 
 def test_the_running_map_slides_above_the_friction_limit() -> None:
     table = fret.study.running_conditions(
-        sphere_on_flat(n=24), W=[500.0, W], T=[30.0, 120.0, 240.0], increments=(4, 8), executor=HERE
+        sphere_on_flat(n=24),
+        W=[500.0, W],
+        T=[30.0, 120.0, 240.0],
+        increments=(4, 8),
+        executor=SAME_PROCESS,
     )
     assert table.status.values.tolist() == [[2, 2, 3], [2, 2, 2]]
     ratio = table.energy_ratio.values
@@ -349,7 +353,7 @@ def test_the_running_map_of_shifts_parts_partial_from_gross_slip() -> None:
     uncoated = fret.reference.CattaneoMindlin(scene_hertz(pair(0.3)), bodies=pair(0.3), mu=MU)
     shifts = np.array([0.5, 3.0]) * uncoated.shift_limit
     table = fret.study.running_conditions(
-        sphere_on_flat(n=24), W=[500.0, W], delta=shifts, increments=(4, 12), executor=HERE
+        sphere_on_flat(n=24), W=[500.0, W], delta=shifts, increments=(4, 12), executor=SAME_PROCESS
     )
     assert table.status.values.tolist() == [[2, 3], [2, 3]]
     assert (table.energy_ratio[:, 0] < 0.2).all()

@@ -12,7 +12,7 @@ import pandas as pd
 import pytest
 
 import pyfret as fret
-from conftest import HERE
+from conftest import SAME_PROCESS
 from pyfret._cli import commands
 
 STEEL = fret.Elastic(E=210e9, nu=0.3)
@@ -44,7 +44,7 @@ def results(result: fret.Result) -> dict[str, Any]:
             "cracks": result.crack(),
             "wear": fret.wear.solve(scene, cycles=100, body2=law, progress=False),
             "study": fret.study.run(
-                scene, {"mu": [0.3, 0.4]}, measure=["p_max"], executor=HERE, progress=False
+                scene, {"mu": [0.3, 0.4]}, measure=["p_max"], executor=SAME_PROCESS, progress=False
             ),
         }
 

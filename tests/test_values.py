@@ -14,7 +14,7 @@ import pytest
 import xarray as xr
 
 import pyfret as fret
-from conftest import HERE, W, paper_path, sphere_on_flat
+from conftest import SAME_PROCESS, W, paper_path, sphere_on_flat
 from pyfret.solution import Increment
 from pyfret.verification import Check
 
@@ -166,10 +166,19 @@ def of_a_run() -> list[Any]:
     round_trip = round_trip.tangential([100.0, -100.0, 0.0], increments=6)
     worn = fret.wear.solve(scene, path=round_trip, cycles=10.0, jumps=1, body2=LAW, progress=False)
     study = fret.study.run(
-        scene.replace(path=path), {"mu": [0.3]}, measure="p_max", executor=HERE, progress=False
+        scene.replace(path=path),
+        {"mu": [0.3]},
+        measure="p_max",
+        executor=SAME_PROCESS,
+        progress=False,
     )
     compared = fret.compare(
-        {"coated": scene.body2}, scene, path, questions=["energy"], executor=HERE, progress=False
+        {"coated": scene.body2},
+        scene,
+        path,
+        questions=["energy"],
+        executor=SAME_PROCESS,
+        progress=False,
     )
     march = fret.march(scene, paper_path(1, 9))
     curve = fret.fit.Indentation.from_arrays(

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 import pyfret as fret
-from conftest import HERE, ROOT
+from conftest import ROOT, SAME_PROCESS
 from pyfret._core import with_error, with_range
 
 FRET = ROOT / "target" / "release" / "fret"
@@ -99,7 +99,7 @@ def test_a_contact_that_is_unloaded_has_no_stick_ratio() -> None:
         SCENE.replace(path=fret.LoadPath.start().normal([100.0, 0.0], increments=2)),
         {"mu": [0.3]},
         measure=["p_max", "stick_ratio"],
-        executor=HERE,
+        executor=SAME_PROCESS,
         progress=False,
     )
     assert "stick_ratio: there is no contact at the end" in study.unanswered()[0][1]
