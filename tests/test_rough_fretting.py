@@ -64,6 +64,19 @@ def test_cycles_have_errors_stress_and_life(n: int, pair: str) -> None:
         assert np.isfinite(life.worst.value)
 
 
+def test_a_map_takes_the_finer_grid_for_its_errors() -> None:
+    """Every second point alone misses the approach of one rough ball in four."""
+    made, W = contact(SIZES[0], "like")
+    path = fret.LoadPath.start().normal(W, increments=1)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        by_default, coarser = (
+            fret.solve(made, path, error=error, progress=False).error_bars()
+            for error in (True, "coarser")
+        )
+    assert coarser.identical(by_default)
+
+
 @pytest.mark.parametrize("n", SIZES)
 def test_asperities_run_in(n: int) -> None:
     """Worn volume is alpha times the dissipated energy at each block, and asperities flatten."""
