@@ -46,17 +46,17 @@ def loop(scene: fret.Scene, reach: float, noise: float, seed: int) -> tuple[np.n
 
 def test_the_scene_of_a_fit_has_all_values_that_were_found() -> None:
     path = fret.LoadPath.start().normal(W).cycles(1, delta_x=6e-6)
-    scene, searched = ball().replace(path=path), ball()
-    found = {"path.*.W": 25.0, "mu": 0.7, "rig.stiffness": 8e6, "wear.body2.alpha": 1e-15}
-    known = {key: SimpleNamespace(value=value) for key, value in found.items()}
-    result = with_found(scene, SimpleNamespace(known=known, scene=searched))  # type: ignore[arg-type]
+    scene, fallback = ball().replace(path=path), ball()
+    values = {"path.*.W": 25.0, "mu": 0.7, "rig.stiffness": 8e6, "wear.body2.alpha": 1e-15}
+    unknowns = {key: SimpleNamespace(value=value) for key, value in values.items()}
+    result = with_found(scene, SimpleNamespace(known=unknowns, scene=fallback))  # type: ignore[arg-type]
     assert [branch.W for branch in result.path.branches] == [25.0] * len(path.branches)
     assert [branch.delta_x for branch in result.path.branches] == [
         branch.delta_x for branch in path.branches
     ]
     assert (result.friction.mu, result.path.rig_stiffness) == (0.7, 8e6)
-    known = {"path.*.W": SimpleNamespace(value=-1.0)}
-    assert with_found(scene, SimpleNamespace(known=known, scene=searched)) is searched  # type: ignore[arg-type]
+    unknowns = {"path.*.W": SimpleNamespace(value=-1.0)}
+    assert with_found(scene, SimpleNamespace(known=unknowns, scene=fallback)) is fallback  # type: ignore[arg-type]
 
 
 def test_mu_and_the_rig_are_found_from_a_german_file(tmp_path: Path) -> None:
